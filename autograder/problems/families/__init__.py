@@ -1,0 +1,1 @@
+"""Problem families: one file is one family, found by being here."""
