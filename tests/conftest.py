@@ -1,0 +1,15 @@
+"""What every test shares: examples of Hypothesis that are the same in every run."""
+
+from hypothesis import HealthCheck, settings
+
+settings.register_profile("default", derandomize=True, database=None, deadline=None, print_blob=False)
+settings.register_profile(
+    "fuzz",
+    derandomize=False,
+    database=None,
+    deadline=None,
+    max_examples=2000,
+    print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile("default")  # pytest --hypothesis-profile=fuzz draws fresh examples instead
