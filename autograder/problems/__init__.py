@@ -1,1 +1,1 @@
-"""Problems: families of pose graphs, and the personal variants that are drawn from them."""
+"""The problems: drawn graphs for the grader, personal variants for the students."""

@@ -1,0 +1,130 @@
+"""Draw cases from a strategy: distinct, simplest first, the same for the same seed."""
+
+from __future__ import annotations
+
+import hashlib
+import warnings
+from collections.abc import Iterable
+
+import numpy as np
+from hypothesis import HealthCheck, Phase, given, seed, settings
+from hypothesis.errors import HypothesisWarning
+from hypothesis.strategies import SearchStrategy
+
+from assignment.posegraph import PoseGraph
+from autograder.problems.ladders import Case, Ladder
+from autograder.problems.strategies import STRATEGIES
+
+MAX_ROUNDS = 20
+
+
+def draw_ladder(ladder: Ladder, root_seed: int, examples: int) -> dict[str, tuple[Case, ...]]:
+    """Draw the cases of every rung: its core, then its share of the examples.
+
+    Parameters
+    ----------
+    ladder : Ladder
+        Which rungs.
+    root_seed : int
+        The seed of the run.
+    examples : int
+        How many cases to draw in all, beside the core.
+
+    Returns
+    -------
+    dict
+        Name of the rung to its cases, the core first, then the drawn ones from simple to rich.
+    """
+    cases = {}
+    drawn_rungs = [rung for rung in ladder.rungs if rung.share > 0]
+    counts = _apportion([rung.share for rung in drawn_rungs], examples)
+    wanted = {rung.name: count for rung, count in zip(drawn_rungs, counts, strict=True)}
+    for rung in ladder.rungs:
+        known = {key(case) for case in rung.core}
+        drawn: list[Case] = []
+        if wanted.get(rung.name):
+            name = f"{root_seed}/{ladder.name}/{rung.name}"
+            drawn = draw_distinct(STRATEGIES[ladder.name][rung.name], wanted[rung.name], name, known)
+        cases[rung.name] = (*rung.core, *drawn)
+    return cases
+
+
+def draw_distinct(strategy: SearchStrategy[Case], count: int, name: str, known: Iterable[bytes] = ()) -> list[Case]:
+    """Draw `count` cases that differ from each other and from the known ones, sorted from simple to rich.
+
+    `name` names the stream: the same name gives the same cases.
+    """
+    found: dict[bytes, Case] = {}
+    refused = set(known)
+    for attempt in range(MAX_ROUNDS):
+        missing = count - len(found)
+        if missing <= 0:
+            break
+        number = int.from_bytes(hashlib.sha256(f"{name}/{attempt}".encode()).digest()[:8], "big")
+        for case in _generate(strategy, missing + missing // 4 + 2, number):
+            identity = key(case)
+            if identity not in refused and len(found) < count:
+                found.setdefault(identity, case)
+    if len(found) < count:
+        raise RuntimeError(f"{name}: only {len(found)} of {count} distinct cases could be drawn")
+    return sorted(found.values(), key=simplicity)
+
+
+def _generate(strategy: SearchStrategy[Case], count: int, number: int) -> list[Case]:
+    drawn: list[Case] = []
+
+    @seed(number)
+    @settings(
+        max_examples=count,
+        database=None,
+        deadline=None,
+        phases=[Phase.generate],
+        suppress_health_check=list(HealthCheck),
+    )
+    @given(strategy)
+    def collect(case: Case) -> None:
+        drawn.append(case)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", HypothesisWarning)
+        collect()
+    return drawn
+
+
+def key(case: Case) -> bytes:
+    """Identify a case by the bytes of its numbers."""
+    parts = []
+    for argument in case:
+        arrays = (
+            (np.array(argument.n_poses), *_fields(argument)) if isinstance(argument, PoseGraph) else (argument,)
+        )
+        parts += [repr(array.shape).encode() + array.tobytes() for array in arrays]
+    return hashlib.sha256(b"|".join(parts)).digest()
+
+
+def simplicity(case: Case) -> tuple[int, int, bytes]:
+    """Order cases: fewer numbers first, then fewer digits."""
+    arrays = [
+        array
+        for argument in case
+        for array in (_fields(argument) if isinstance(argument, PoseGraph) else (argument,))
+    ]
+    numbers = [number for array in arrays for number in array.ravel().tolist()]
+    return len(numbers), sum(len(f"{number:g}") for number in numbers), key(case)
+
+
+def _fields(graph: PoseGraph) -> tuple[np.ndarray, ...]:
+    return (
+        graph.edges,
+        graph.measurements,
+        graph.edge_variances,
+        graph.priors,
+        graph.prior_means,
+        graph.prior_variances,
+    )
+
+
+def _apportion(shares: list[float], total: int) -> list[int]:
+    """Split a total by shares so that the parts add up to it."""
+    ends = np.rint(np.cumsum(shares) / sum(shares) * total).astype(int)
+    return [int(part) for part in np.diff(ends, prepend=0)]

@@ -1,0 +1,201 @@
+"""What every stage has: its checks, its expected values, and a verdict for a whole batch at once.
+
+A stage never sees a student's objects. It is given `Answers`: flat float64 numbers with a table of
+shapes, rebuilt by the grader from bytes.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from autograder.problems.ladders import Case, Ladder
+
+Array = NDArray[np.float64]
+Shape = tuple[int, ...]
+
+
+class Answers(Protocol):
+    """What came back for one batch of calls (the sandbox's `Outputs` is one)."""
+
+    @property
+    def outcome(self) -> NDArray[np.uint8]:
+        """One code a call; 0 where it returned numbers."""
+
+    @property
+    def shapes(self) -> list[Shape]:
+        """One shape a returned array, as the student returned it."""
+
+    @property
+    def offsets(self) -> NDArray[np.int64]:
+        """Where each array begins in `data`, and the end."""
+
+    @property
+    def data(self) -> Array:
+        """All numbers, one after the other."""
+
+
+@dataclass(frozen=True)
+class Slip:
+    """A known mistake: a wrong implementation of one stage, its name, and a hint that teaches.
+
+    Parameters
+    ----------
+    identifier : str
+        In snake_case; stands in results and reports.
+    name : str
+        One sentence that says what is wrong.
+    hint : str
+        Leads to the idea without writing the line of code.
+    function : callable
+        The wrong implementation, with the signature of the stage's function.
+    catalogue : str
+        Identifiers of the same mistake in the literature that the course keeps.
+    minimum_poses : int
+        Smallest number of poses on which the mistake can be seen.
+    """
+
+    identifier: str
+    name: str
+    hint: str
+    function: Callable[..., Any]
+    catalogue: str = ""
+    minimum_poses: int = 2
+
+
+@dataclass(frozen=True)
+class Batch:
+    """The expected answers to a batch of calls, flat: judged with a few operations on whole arrays.
+
+    `starts` and `ends` delimit the arrays in `data`; `calls` says at which array each call begins.
+    """
+
+    shapes: list[Shape]
+    starts: NDArray[np.int64]
+    ends: NDArray[np.int64]
+    data: Array
+    tolerance: Array
+    parts: int
+
+
+class Stage(ABC):
+    """One stage of the homework. A subclass a file, one instance named `STAGE` in it.
+
+    Attributes
+    ----------
+    name, function : str
+        The stage's name and the function of the submission that it calls.
+    title : str
+        A heading for reports.
+    position : int
+        Place in the order of the stages.
+    points : float
+        Points where the course file says nothing.
+    parts : int
+        How many arrays one call returns.
+    ladder : Ladder
+        Where its cases come from: one rung, one check.
+    shares : dict
+        Share of the points for each rung of the ladder; they add up to 1.
+    """
+
+    name: str
+    function: str
+    title: str
+    position: int
+    points: float
+    bonus: bool = False
+    parts: int = 1
+    ladder: Ladder
+    shares: dict[str, float]
+
+    def calls(self, case: Case) -> list[Case]:
+        """Arguments of the calls that one case needs, in order."""
+        return [case]
+
+    @abstractmethod
+    def expected(self, *arguments: Any) -> tuple[Array, ...]:
+        """Return the right answer to one call, by the reference."""
+
+    @abstractmethod
+    def prepare(self, cases: Sequence[Case]) -> Any:
+        """Work out once, for all submissions, what the verdict on these cases needs."""
+
+    @abstractmethod
+    def judge(self, prepared: Any, answers: Answers) -> NDArray[np.bool_]:
+        """Say for each case whether the answers are right."""
+
+    @abstractmethod
+    def explain(self, case: Case, got: tuple[Array, ...]) -> str:
+        """Say in the subject's words what is wrong with finite numbers of the right shape."""
+
+
+class ArrayStage(Stage):
+    """A stage whose function returns arrays that are compared with the reference's, entry by entry."""
+
+    @abstractmethod
+    def tolerance(self, *arguments: Any) -> tuple[Array, ...]:
+        """Return how far each entry may be off; derived from rounding in the numbers of the call."""
+
+    def prepare(self, cases: Sequence[Case]) -> Batch:
+        """Stack expected values and tolerances of all cases."""
+        arrays = [array for case in cases for array in self.expected(*case)]
+        allowed = [
+            np.broadcast_to(tolerance, array.shape)
+            for case in cases
+            for tolerance, array in zip(self.tolerance(*case), self.expected(*case), strict=True)
+        ]
+        ends = np.cumsum([array.size for array in arrays])
+        return Batch(
+            shapes=[array.shape for array in arrays],
+            starts=np.concatenate([[0], ends[:-1]]).astype(np.int64),
+            ends=ends.astype(np.int64),
+            data=np.concatenate([array.ravel() for array in arrays]),
+            tolerance=np.concatenate([tolerance.ravel() for tolerance in allowed]),
+            parts=self.parts,
+        )
+
+    def judge(self, prepared: Batch, answers: Answers) -> NDArray[np.bool_]:
+        """Compare every entry with its tolerance; a call is right if all its entries are."""
+        got, usable = aligned(prepared, answers)
+        with np.errstate(invalid="ignore"):  # inf - inf is nan, and nan is never within tolerance
+            close = np.abs(got - prepared.data) <= prepared.tolerance
+        right = np.logical_and.reduceat(close, prepared.starts) & usable
+        return np.asarray(right.reshape(-1, prepared.parts).all(axis=1))
+
+
+def aligned(prepared: Batch, answers: Answers) -> tuple[Array, NDArray[np.bool_]]:
+    """Lay the answers over the expected ones: their numbers, and which arrays have a usable shape.
+
+    Numbers of unusable arrays are nan. A column or a row of the right length stands for a vector.
+    """
+    n = len(prepared.shapes)
+    if answers.shapes == prepared.shapes and answers.data.size == prepared.data.size:
+        return answers.data, np.ones(n, dtype=np.bool_)
+    got = np.full(prepared.data.size, np.nan)
+    usable = np.zeros(n, dtype=np.bool_)
+    for index, (shape, wanted) in enumerate(zip(answers.shapes, prepared.shapes, strict=True)):
+        lo, hi = answers.offsets[index], answers.offsets[index + 1]
+        start, end = prepared.starts[index], prepared.ends[index]
+        if fits(shape, wanted) and hi - lo == end - start:
+            got[start:end] = answers.data[lo:hi]
+            usable[index] = True
+    return got, usable
+
+
+def fits(shape: Shape, wanted: Shape) -> bool:
+    """Whether an array of this shape can stand for the wanted one.
+
+    Examples
+    --------
+    >>> fits((6, 1), (6,)), fits((1, 6), (6,)), fits((5, 6), (6, 5))
+    (True, True, False)
+    """
+    if shape == wanted:
+        return True
+    return len(wanted) == 1 and shape in ((wanted[0], 1), (1, wanted[0]))

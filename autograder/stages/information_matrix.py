@@ -1,0 +1,62 @@
+"""Stage `information_matrix`: the weights Omega on a given graph."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assignment.posegraph import PoseGraph
+from autograder.problems.ladders import GRAPHS, Case
+from autograder.stages.base import Array, ArrayStage
+from autograder.stages.wording import factor, number
+from reference_solution import slam1d
+
+
+class InformationMatrix(ArrayStage):
+    """Asks for Omega = diag(1/variance), shape (m, m) [1/m^2]."""
+
+    name = function = "information_matrix"
+    title = "Information matrix Omega"
+    position = 3
+    points = 10.0
+    ladder = GRAPHS
+    shares = {
+        "worked_example": 0.1,
+        "single_loops": 0.2,
+        "several_loops": 0.15,
+        "priors": 0.2,
+        "variances": 0.2,
+        "real_valued": 0.1,
+        "hundred_poses": 0.05,
+    }
+
+    def calls(self, case: Case) -> list[Case]:
+        """Only the graph is asked about; the state plays no part."""
+        return [(case[1],)]
+
+    def expected(self, graph: PoseGraph) -> tuple[Array, ...]:
+        """Return Omega."""
+        return (slam1d.information_matrix(graph),)
+
+    def tolerance(self, graph: PoseGraph) -> tuple[Array, ...]:
+        """Allow 1e-9 of the geometric mean of the two weights, the scale of an entry between them."""
+        root = np.sqrt(1.0 / np.concatenate([graph.edge_variances, graph.prior_variances]))
+        return (1e-9 * np.outer(root, root),)
+
+    def explain(self, case: Case, got: tuple[Array, ...]) -> str:
+        """Name the first wrong weight, or the entry beside the diagonal that is not 0."""
+        (graph,) = case
+        omega = self.expected(graph)[0]
+        wrong = ~(np.abs(got[0] - omega) <= self.tolerance(graph)[0])
+        rows = np.flatnonzero(np.diag(wrong))
+        if rows.size:
+            row = int(rows[0])
+            variance = 1.0 / omega[row, row]
+            return (
+                f"{factor(graph, row)} has variance {number(variance)} m^2: Omega[{row}, {row}] got "
+                f"{number(got[0][row, row])}, expected {number(omega[row, row])} [1/m^2]."
+            )
+        i, j = (int(index) for index in np.argwhere(wrong)[0])
+        return f"Omega[{i}, {j}] got {number(got[0][i, j])}, expected 0: the measurements are independent."
+
+
+STAGE = InformationMatrix()

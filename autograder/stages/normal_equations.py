@@ -1,0 +1,51 @@
+"""Stage `normal_equations`: H and b on given (J, Omega, f), also ones that no graph has."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from autograder.problems.ladders import MATRICES, Case
+from autograder.stages.base import Array, ArrayStage
+from autograder.stages.wording import number, vector
+from reference_solution import slam1d
+
+
+class NormalEquations(ArrayStage):
+    """Asks for H = J^T Omega J, shape (n, n), and b = J^T Omega f, shape (n,)."""
+
+    name = function = "normal_equations"
+    title = "Normal equations H, b"
+    position = 4
+    points = 20.0
+    parts = 2
+    ladder = MATRICES
+    shares = {"whole_numbers": 0.3, "unequal_weights": 0.25, "graph_shaped": 0.2, "dense": 0.2, "large": 0.05}
+
+    def expected(self, J: Array, omega: Array, f: Array) -> tuple[Array, ...]:
+        """Return H and b."""
+        return slam1d.normal_equations(J, omega, f)
+
+    def tolerance(self, J: Array, omega: Array, f: Array) -> tuple[Array, ...]:
+        """Allow 1e-9 of |J|^T Omega |J| and |J|^T Omega |f|, the bounds of rounding in these sums.
+
+        A millionth of the largest entry's share is added, so that a sum that is 0 only because all
+        its terms are 0 may carry noise from a solver.
+        """
+        size = np.abs(J).T @ omega
+        H, b = size @ np.abs(J), size @ np.abs(f)
+        return 1e-9 * (H + 1e-6 * H.max(initial=0.0)), 1e-9 * (b + 1e-6 * b.max(initial=0.0))
+
+    def explain(self, case: Case, got: tuple[Array, ...]) -> str:
+        """Name the first wrong entry of H, or the whole of b."""
+        H, b = self.expected(*case)
+        allowed_H, allowed_b = self.tolerance(*case)
+        wrong = np.argwhere(~(np.abs(got[0] - H) <= allowed_H))
+        if len(wrong):
+            i, j = (int(index) for index in wrong[0])
+            symmetric = np.abs(got[0] - got[0].T).max() <= allowed_H.max()
+            remark = "" if symmetric else " H must be symmetric, and yours is not."
+            return f"H[{i}, {j}]: got {number(got[0][i, j])}, expected {number(H[i, j])}.{remark}"
+        return f"b: got {vector(got[1])}, expected {vector(b)}; H is right."
+
+
+STAGE = NormalEquations()

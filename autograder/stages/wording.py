@@ -1,0 +1,50 @@
+"""The subject's words for what a message points at: rows, factors, numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assignment.posegraph import PoseGraph
+
+
+def number(value: float) -> str:
+    """Print a number for a student: short, and -0. as 0.
+
+    Examples
+    --------
+    >>> number(-0.0), number(1200.0), number(0.1 + 0.2)
+    ('0', '1200', '0.3')
+    """
+    if value == 0:
+        return "0"
+    return f"{value:.0f}" if abs(value) < 1e7 and float(value).is_integer() else f"{value:.6g}"
+
+
+def vector(values: np.ndarray) -> str:
+    """Print numbers in square brackets; a long vector is cut in the middle.
+
+    Examples
+    --------
+    >>> vector(np.array([1.0, -0.0, 2.5]))
+    '[1 0 2.5]'
+    """
+    shown = [number(value) for value in values.ravel().tolist()]
+    if len(shown) > 8:
+        shown = [*shown[:4], "...", *shown[-2:]]
+    return "[" + " ".join(shown) + "]"
+
+
+def factor(graph: PoseGraph, row: int) -> str:
+    """Name the factor that a row belongs to.
+
+    Examples
+    --------
+    >>> graph = PoseGraph(3, [(0, 1), (1, 2), (0, 2)], [1, 1, 2], [1, 1, 1], [0], [0], [1])
+    >>> factor(graph, 2), factor(graph, 3)
+    ('row 2 (edge 0 -> 2)', 'row 3 (prior on pose 0)')
+    """
+    k = len(graph.edges)
+    if row < k:
+        i, j = graph.edges[row].tolist()
+        return f"row {row} (edge {i} -> {j})"
+    return f"row {row} (prior on pose {int(graph.priors[row - k])})"

@@ -1,0 +1,96 @@
+"""What grading says: one value for a check, a stage and a submission, as they stand in results/*.json."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import msgspec
+
+StageStatus = Literal[
+    "passed",
+    "partial",
+    "failed",
+    "error",
+    "timeout",
+    "memory",
+    "missing",
+    "forbidden",
+    "awaiting_mark",
+    "not_graded",
+]
+SubmissionStatus = Literal["graded", "rejected", "grader_error"]
+
+
+class CheckVerdict(msgspec.Struct, frozen=True, kw_only=True):
+    """One check of a stage: all or nothing.
+
+    `counterexample` is the smallest case that shows the mistake, as plain JSON data, or None.
+    """
+
+    name: str
+    passed: bool
+    points: float
+    max_points: float
+    cases: int
+    message: str = ""
+    counterexample: dict[str, Any] | None = None
+
+
+class StageVerdict(msgspec.Struct, frozen=True, kw_only=True):
+    """One stage of a submission: the sum of its checks, and the reason in words."""
+
+    name: str
+    status: StageStatus
+    score: float
+    max_score: float
+    bonus: bool = False
+    slip: str | None = None
+    message: str = ""
+    hint: str = ""
+    remarks: tuple[str, ...] = ()
+    checks: tuple[CheckVerdict, ...] = ()
+
+
+class Result(msgspec.Struct, frozen=True, kw_only=True):
+    """One submission, as written to results/<submission>.json.
+
+    `score` is None exactly when `status` is "grader_error": our fault is never a zero.
+    """
+
+    submission: str
+    student_id: str | None = None
+    variant: str = "worked-example"
+    status: SubmissionStatus
+    message: str = ""
+    score: float | None
+    max_score: float
+    bonus: float = 0.0
+    provisional: bool = False
+    awaiting: float = 0.0
+    stages: tuple[StageVerdict, ...] = ()
+    notes: tuple[str, ...] = ()
+    confinement: str
+    seed: int
+    grader_version: str
+    fingerprint: str
+    seconds: float
+
+
+def encode(result: Result) -> bytes:
+    """Write a result as indented JSON with a final newline.
+
+    Examples
+    --------
+    >>> result = Result(
+    ...     submission="alice", status="rejected", message="alice.txt is no Python.", score=0.0,
+    ...     max_score=90.0, confinement="full", seed=0, grader_version="0", fingerprint="", seconds=0.0,
+    ... )
+    >>> decode(encode(result)) == result
+    True
+    """
+    return msgspec.json.format(msgspec.json.encode(result), indent=2) + b"\n"
+
+
+def decode(data: bytes) -> Result:
+    """Read a result; raises msgspec.ValidationError where the bytes are no result."""
+    return msgspec.json.decode(data, type=Result)

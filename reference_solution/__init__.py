@@ -1,0 +1,1 @@
+"""What is right, shaped like a submission."""
