@@ -1,0 +1,1 @@
+"""What students are handed, written from templates, the problem's numbers and the reference's signatures."""

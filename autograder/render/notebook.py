@@ -1,0 +1,75 @@
+"""Notebooks from one readable template: `%% kind name` opens a cell, its name becomes the cell's id."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import nbformat
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
+
+from autograder.render.template import fill
+
+__all__ = ["build_notebook", "render_notebook"]
+
+_HEAD = re.compile(r"^%% (markdown|code|provided) ([a-z0-9][a-z0-9-]*)\n", re.MULTILINE)
+
+# Jupyter folds the source of a provided cell, Colab shows it as a form.
+_FOLDED = {"cellView": "form", "jupyter": {"source_hidden": True}}
+
+
+def render_notebook(template: str, **values: Any) -> str:
+    """Fill a template and return the notebook as the text of an .ipynb file (nbformat 4.5)."""
+    text: str = nbformat.writes(build_notebook(fill(template, **values)), version=4)  # type: ignore[no-untyped-call]
+    return text + "\n"
+
+
+def build_notebook(text: str) -> nbformat.NotebookNode:
+    r"""Build a notebook from the text of its cells.
+
+    Parameters
+    ----------
+    text : str
+        Cells one after the other, each opened by a line `%% kind name`. Kinds: markdown, code, and
+        provided, a code cell that is shown folded.
+
+    Returns
+    -------
+    NotebookNode
+        Valid nbformat 4.5, no outputs, for the kernel python3.
+
+    Raises
+    ------
+    ValueError
+        Where text stands before the first cell or two cells have one name.
+
+    Examples
+    --------
+    >>> notebook = build_notebook("%% markdown title\n# Words\n\n%% code sum\n1 + 1\n")
+    >>> [(cell.id, cell.source) for cell in notebook.cells]
+    [('title', '# Words'), ('sum', '1 + 1')]
+    """
+    before, *parts = _HEAD.split(text)
+    if before.strip():
+        raise ValueError(f"a template must begin with a line `%% kind name`, got {before.strip()[:40]!r}")
+    cells = [_cell(*part) for part in zip(parts[0::3], parts[1::3], parts[2::3], strict=True)]
+    names = [cell.id for cell in cells]
+    twice = {name for name in names if names.count(name) > 1}
+    if twice:
+        raise ValueError(f"every cell must have a name of its own, got {sorted(twice)} more than once")
+    notebook: nbformat.NotebookNode = new_notebook(  # type: ignore[no-untyped-call]
+        cells=cells,
+        metadata={
+            "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
+            "language_info": {"name": "python"},
+        },
+    )
+    nbformat.validate(notebook)
+    return notebook
+
+
+def _cell(kind: str, name: str, source: str) -> nbformat.NotebookNode:
+    new: Callable[..., nbformat.NotebookNode] = new_markdown_cell if kind == "markdown" else new_code_cell
+    metadata = _FOLDED if kind == "provided" else {}
+    return new(source.strip("\n"), id=name, metadata=metadata)
