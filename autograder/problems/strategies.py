@@ -16,10 +16,8 @@ from hypothesis.strategies import DrawFn, SearchStrategy
 
 from assignment.posegraph import PoseGraph
 from autograder.problems.core import jitter
+from autograder.problems.graphs import MAX_CONDITION, information
 from autograder.problems.ladders import Case
-
-MAX_CONDITION = 1e6
-MAX_STATE = 100.0
 
 VARIANCES = (0.01, 0.02, 0.04, 0.05, 0.1)
 DECADES = (0.002, 0.01, 0.05, 0.2, 1.0, 5.0, 20.0)
@@ -37,31 +35,6 @@ def _states(n_poses: int) -> SearchStrategy[np.ndarray]:
 
 def _several(elements: SearchStrategy[Any], count: int) -> SearchStrategy[list[Any]]:
     return st.lists(elements, min_size=count, max_size=count)
-
-
-def information(graph: PoseGraph) -> np.ndarray:
-    """Return the information matrix H of the state, straight from the factors.
-
-    Examples
-    --------
-    >>> information(PoseGraph(2, [(0, 1)], [1.0], [0.5], [0], [0.0], [0.25]))
-    array([[ 6., -2.],
-           [-2.,  2.]])
-    """
-    H = np.zeros((graph.n_poses, graph.n_poses))
-    i, j = graph.edges.T
-    w = 1.0 / graph.edge_variances
-    np.add.at(H, (i, i), w)
-    np.add.at(H, (j, j), w)
-    np.add.at(H, (i, j), -w)
-    np.add.at(H, (j, i), -w)
-    np.add.at(H, (graph.priors, graph.priors), 1.0 / graph.prior_variances)
-    return H
-
-
-def well_posed(x: np.ndarray, graph: PoseGraph) -> bool:
-    """Whether a case keeps the bounds of the contract: cond(H) <= 1e6 and |x| <= 100, a prior in every part."""
-    return bool(np.abs(x).max() <= MAX_STATE and np.linalg.cond(information(graph)) <= MAX_CONDITION)
 
 
 def _chain(n_poses: int) -> list[tuple[int, int]]:

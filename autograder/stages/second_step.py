@@ -1,0 +1,176 @@
+"""Stage `second_step`: what must be true of any step of a linear problem, with no reference at all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assignment.posegraph import PoseGraph
+from autograder.problems.ladders import LOOPS, Case
+from autograder.problems.graphs import information, loop_edges, with_measurement
+from autograder.stages.base import Answers, Array, Batch, Stage, aligned
+from autograder.stages.wording import number, vector
+from reference_solution import slam1d
+
+NUDGE = 1.0  # how much a measurement on the loop is changed [m]
+
+
+@dataclass(frozen=True)
+class Loops:
+    """All calls of a batch of loops, flat.
+
+    Call 0 and 1 of a loop start from its two states, the others from the first state with one
+    measurement changed. `first` points from every entry to the same pose in call 0 of its loop;
+    `loop`, `start` tell for every call its loop and whether it is the call from the second state.
+    """
+
+    steps: Batch
+    states: Array
+    first: NDArray[np.int64]
+    loop: NDArray[np.int64]
+    is_second_start: NDArray[np.bool_]
+    is_nudged: NDArray[np.bool_]
+    loop_starts: NDArray[np.int64]
+    tolerance: Array
+    again: Batch
+    graphs: tuple[PoseGraph, ...]
+
+
+class SecondStep(Stage):
+    """Asks three things of the student's own step on every loop.
+
+    The step from x + dx(x) is zero; x + dx(x) is the same point from both starts; and that point
+    moves when any measurement on the loop is changed by 1 m. The first two hold because the
+    problem is linear; the third stops a step that does not look at the measurements.
+    """
+
+    name = "second_step"
+    function = "gauss_newton_step"
+    title = "Second step"
+    position = 6
+    points = 10.0
+    ladder = LOOPS
+    shares = {"worked_example": 0.2, "single_loops": 0.4, "loops_in_graphs": 0.4}
+
+    def calls(self, case: Case) -> list[Case]:
+        """Return the calls from both states, then one for every measurement on the loop."""
+        (one, two), graph = case
+        nudged = [with_measurement(graph, e, graph.measurements[e] + NUDGE) for e in loop_edges(graph)]
+        return [(one, graph), (two, graph), *((one, changed) for changed in nudged)]
+
+    def expected(self, x: Array, graph: PoseGraph) -> tuple[Array, ...]:
+        """Return dx by the reference; it sizes the replies and plays no part in the verdict."""
+        return (slam1d.gauss_newton_step(x, graph),)
+
+    def prepare(self, cases: Sequence[Case]) -> Loops:
+        """Lay out all calls of all loops."""
+        calls = [self.calls(case) for case in cases]
+        counts = np.array([len(group) for group in calls])
+        loop = np.repeat(np.arange(len(cases)), counts)
+        loop_starts = np.cumsum(counts) - counts
+        position = np.arange(len(loop)) - loop_starts[loop]
+        steps = _batch([x for group in calls for x, _ in group])
+        sizes = steps.ends - steps.starts
+        first = np.concatenate(
+            [np.arange(size) + steps.starts[loop_starts[c]] for size, c in zip(sizes.tolist(), loop, strict=True)]
+        )
+        return Loops(
+            steps=steps,
+            states=np.concatenate([x for group in calls for x, _ in group]),
+            first=first,
+            loop=loop,
+            is_second_start=position == 1,
+            is_nudged=position > 1,
+            loop_starts=loop_starts,
+            tolerance=np.array([tolerance(*case) for case in cases]),
+            again=_batch([case[0][0] for case in cases]),
+            graphs=tuple(case[1] for case in cases),
+        )
+
+    def follow_up(self, prepared: Loops, answers: Answers) -> list[Case] | None:
+        """Return the second round: a call from x + dx(x) for every loop.
+
+        The sum is made here, not in the student's process. A step that came back unusable is
+        asked about at x itself: that loop is lost already.
+        """
+        dx, _ = aligned(prepared.steps, answers)
+        points = prepared.states + np.where(np.isfinite(dx), dx, 0.0)
+        starts, ends = prepared.steps.starts[prepared.loop_starts], prepared.steps.ends[prepared.loop_starts]
+        return [(points[a:b].copy(), graph) for a, b, graph in zip(starts, ends, prepared.graphs, strict=True)]
+
+    def judge(self, prepared: Loops, answers: Answers, again: Answers | None = None) -> NDArray[np.bool_]:
+        """Hold every loop to the three properties."""
+        return np.asarray(self.properties(prepared, answers, again).all(axis=0))
+
+    def properties(self, prepared: Loops, answers: Answers, again: Answers | None) -> NDArray[np.bool_]:
+        """Say for each property (row: zero again, same point, moves) and loop whether it holds."""
+        n = len(prepared.graphs)
+        dx, usable = aligned(prepared.steps, answers)
+        point = prepared.states + dx
+        with np.errstate(invalid="ignore", over="ignore"):
+            moved = np.maximum.reduceat(np.abs(point - point[prepared.first]), prepared.steps.starts)
+        allowed = prepared.tolerance[prepared.loop]
+        same = usable & (moved <= allowed)
+        moves = usable & (moved > 10.0 * allowed)
+        hold = np.zeros((3, n), dtype=np.bool_)
+        if again is not None:
+            second, second_usable = aligned(prepared.again, again)
+            with np.errstate(invalid="ignore"):
+                size = np.maximum.reduceat(np.abs(second), prepared.again.starts)
+            hold[0] = second_usable & (size <= prepared.tolerance) & usable[prepared.loop_starts]
+        hold[1] = np.logical_and.reduceat(same | ~prepared.is_second_start, prepared.loop_starts)
+        hold[2] = np.logical_and.reduceat(moves | ~prepared.is_nudged, prepared.loop_starts)
+        return hold
+
+    def explain(self, case: Case, got: tuple[Array, ...]) -> str:
+        """Say which property broke; `got` holds the first-round steps, then the second step."""
+        (one, two), graph = case
+        allowed = tolerance(*case)
+        point = one + got[0].ravel()
+        if len(got) > len(self.calls(case)) and not np.abs(got[-1]).max() <= allowed:
+            return f"after one step from {vector(one)} to {vector(point)}, the second step is {vector(got[-1])}, not 0."
+        other = two + got[1].ravel()
+        if not np.abs(other - point).max() <= allowed:
+            return (
+                f"x + dx(x) depends on the start: {vector(point)} from {vector(one)}, "
+                f"{vector(other)} from {vector(two)}; one minimum was expected."
+            )
+        for e, dx in zip(loop_edges(graph), got[2:], strict=False):
+            if not np.abs(one + dx.ravel() - point).max() > 10.0 * allowed:
+                i, j = graph.edges[e].tolist()
+                return (
+                    f"the point x + dx(x) = {vector(point)} does not move when the measurement of edge {i} -> {j}, "
+                    f"which lies on a loop, changes from {number(graph.measurements[e])} to "
+                    f"{number(graph.measurements[e] + NUDGE)} m."
+                )
+        return "the three properties of a second step do not hold."
+
+
+def tolerance(states: Array, graph: PoseGraph) -> float:
+    """Return how far two points may differ and still count as one [m].
+
+    An error of relative size e in J moves the minimum by about sqrt(cond(H)) e |dx|, because H is
+    a square; e = 1e-7 leaves room for central differences (1e-8) and for every solver. A changed
+    measurement moves the point by at least a fiftieth of the change on the drawn loops.
+    """
+    condition = np.linalg.cond(information(graph))
+    size = 1.0 + np.abs(states).max() + np.abs(graph.measurements).max(initial=0.0)
+    return float(1e-7 * np.sqrt(condition) * size)
+
+
+def _batch(states: list[Array]) -> Batch:
+    ends = np.cumsum([x.size for x in states])
+    return Batch(
+        shapes=[x.shape for x in states],
+        starts=np.concatenate([[0], ends[:-1]]).astype(np.int64),
+        ends=ends.astype(np.int64),
+        data=np.zeros(int(ends[-1])),
+        tolerance=np.zeros(int(ends[-1])),
+        parts=1,
+    )
+
+
+STAGE = SecondStep()
