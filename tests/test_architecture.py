@@ -1,0 +1,211 @@
+"""The picture of the rooms is a table, and the table is a test: a picture that nobody runs goes stale."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = ("assignment", "autograder", "reference_solution")
+
+# A room may import itself, the version in autograder/__init__.py, and what its line names.
+ARROWS = """
+errors             -> nothing
+verdicts           -> nothing
+posegraph          -> nothing
+reference_solution -> nothing
+assignment         -> posegraph
+course             -> errors
+problems           -> posegraph, errors
+sandbox            -> errors
+intake             -> errors, sandbox
+stages             -> problems, reference_solution, verdicts, posegraph
+diagnosis          -> stages, verdicts
+render             -> stages, problems, posegraph, errors
+engine             -> stages, diagnosis, problems, sandbox, intake, course, verdicts, errors
+reports            -> verdicts, render.figure
+exports            -> render, stages, problems, reports, errors
+audit              -> engine, stages, specimens
+cli                -> everything
+__main__           -> cli
+"""
+
+# Imports under `if TYPE_CHECKING` exist for readers only; they follow the table, but for these.
+TYPE_ONLY = {("reference_solution", "posegraph")}  # it must run as a submission, where `assignment` is unknown
+
+# These run beside a student's code: of ours they may import one another, and nothing else.
+INSIDE = ("frames", "lockdown", "child", "forkserver")
+
+
+def table() -> dict[str, frozenset[str]]:
+    """Read ARROWS: room -> what it may import."""
+    lines = [line.split("->") for line in ARROWS.strip().splitlines()]
+    return {room.strip(): frozenset(name.strip() for name in names.split(",")) - {"nothing"} for room, names in lines}
+
+
+@dataclass(frozen=True)
+class Import:
+    """One import of ours by ours."""
+
+    source: str
+    line: int
+    target: str
+    type_only: bool
+
+
+def modules(root: Path) -> dict[str, Path]:
+    """Find every module of the packages below root, by its dotted name."""
+    found = {}
+    for package in PACKAGES:
+        for path in sorted((root / package).rglob("*.py")):
+            parts = path.relative_to(root).with_suffix("").parts
+            if parts[:2] != ("autograder", "specimens"):  # submissions: what they import is what they are judged for
+                found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def room_of(module: str) -> str:
+    """Name the room of a module: the second part of its name, but for the small packages."""
+    first, _, rest = module.partition(".")
+    if module in {"posegraph", "assignment.posegraph"}:
+        return "posegraph"
+    return rest.split(".")[0] if first == "autograder" else first
+
+
+def imports(root: Path) -> Iterator[Import]:
+    """Read every import statement, wherever in the file it stands."""
+    known = modules(root)
+    for module, path in known.items():
+        tree = ast.parse(path.read_text(encoding="utf-8"), filename=str(path))
+        readers_only = {
+            id(inner)
+            for node in ast.walk(tree)
+            if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
+            for statement in node.body
+            for inner in ast.walk(statement)
+        }
+        package = module if path.stem == "__init__" else module.rpartition(".")[0]
+        for node in ast.walk(tree):
+            for target in _targets(node, package, known):
+                if target.split(".")[0] in (*PACKAGES, "posegraph"):
+                    yield Import(module, getattr(node, "lineno", 0), target, id(node) in readers_only)
+
+
+def _targets(node: ast.AST, package: str, known: dict[str, Path]) -> Iterator[str]:
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names)
+    elif isinstance(node, ast.ImportFrom):
+        base = node.module or ""
+        if node.level:
+            above = package.split(".")[: len(package.split(".")) - node.level + 1]
+            base = ".".join([*above, *([base] if base else [])])
+        for alias in node.names:  # `from autograder import engine` imports a module, not a name
+            full = f"{base}.{alias.name}"
+            yield full if full in known else base
+    elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(("import_module", "__import__")):
+        yield from (arg.value for arg in node.args if isinstance(arg, ast.Constant) and isinstance(arg.value, str))
+
+
+def broken_arrows(root: Path) -> list[str]:
+    """Say in a sentence each what the packages below root import against the table."""
+    may = table()
+    strange = sorted({room_of(module) for module in modules(root)} - {"", *may})
+    sentences = [f"There is a room `{room}`, which the table does not know." for room in strange]
+    for found in imports(root):
+        here, there = room_of(found.source), room_of(found.target)
+        allowed = may.get(here, frozenset())
+        inside = {f"autograder.sandbox.{name}" for name in INSIDE}
+        if found.source in inside:
+            fine = found.target in inside
+            words = f"what runs beside a student's code may import {', '.join(INSIDE)} only"
+        else:
+            fine = (
+                there in {here, ""}
+                or not allowed.isdisjoint({"everything", there, found.target.removeprefix("autograder.")})
+                or (found.type_only and (here, there) in TYPE_ONLY)
+            )
+            words = f"{here or 'autograder/__init__.py'} may import {', '.join(sorted(allowed)) or 'nothing of ours'}"
+        if not fine:
+            sentences.append(f"{found.source}, line {found.line}, imports {found.target}, but {words}.")
+    return sentences
+
+
+def test_every_import_follows_an_arrow() -> None:
+    """A part imports only what its line of the table names."""
+    assert not broken_arrows(ROOT), "\n".join(broken_arrows(ROOT))
+
+
+def test_the_table_names_rooms_that_exist() -> None:
+    """A name on the right of an arrow is a room of the table, or a module of one."""
+    rooms = table()
+    for names in rooms.values():
+        assert all(name.split(".")[0] in {*rooms, "everything", "specimens"} for name in names)
+
+
+def _write(root: Path, module: str, text: str) -> None:
+    path = root.joinpath(*module.split(".")).with_suffix(".py")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+
+
+WAYS = {
+    "at the top": "import autograder.cli",
+    "from": "from autograder.cli import main",
+    "a module from its package": "from autograder import cli",
+    "relative": "from ..cli import main",
+    "inside a function": "def f():\n    from autograder import cli",
+    "for types only": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import autograder.cli",
+    "by its name as text": "import importlib\nimportlib.import_module('autograder.cli')",
+}
+
+
+@pytest.mark.parametrize("text", WAYS.values(), ids=WAYS.keys())
+@pytest.mark.parametrize("room", sorted(set(table()) - {"cli", "__main__", "posegraph", "reference_solution"}))
+def test_a_broken_arrow_is_seen(tmp_path: Path, room: str, text: str) -> None:
+    """An import of cli breaks the arrow of every other room, however it is written."""
+    _write(tmp_path, "autograder.cli", "main = None\n")
+    _write(tmp_path, f"autograder.{room}.part", text)
+    (sentence,) = broken_arrows(tmp_path)
+    assert sentence.startswith(f"autograder.{room}.part, line ")
+    assert f"imports autograder.cli, but {room} may import" in sentence
+
+
+@pytest.mark.parametrize(
+    ("module", "text", "words"),
+    [
+        (
+            "reference_solution.slam1d",
+            "from posegraph import PoseGraph",
+            "reference_solution may import nothing of ours",
+        ),
+        ("assignment.posegraph", "import autograder.errors", "posegraph may import nothing of ours"),
+        ("autograder.sandbox.child", "import autograder.errors", "may import frames, lockdown, child, forkserver only"),
+        ("autograder.reports.html", "import autograder.render.stub", "reports may import render.figure, verdicts"),
+        ("autograder.__init__", "import autograder.errors", "autograder/__init__.py may import nothing of ours"),
+        ("autograder.attic.old", "", "There is a room `attic`, which the table does not know"),
+    ],
+)
+def test_a_special_rule_is_seen(tmp_path: Path, module: str, text: str, words: str) -> None:
+    """The rules beside the table are held like the table."""
+    _write(tmp_path, module, text)
+    (sentence,) = broken_arrows(tmp_path)
+    assert words in sentence
+
+
+@pytest.mark.parametrize(
+    ("module", "text"),
+    [
+        ("autograder.reports.html", "import autograder.render.figure"),
+        ("autograder.cli", "import autograder.engine.grade"),
+        ("autograder.stages.jacobian", "from autograder import __version__\nfrom . import base"),
+        ("reference_solution.slam1d", "if TYPE_CHECKING:\n    from assignment.posegraph import PoseGraph"),
+    ],
+)
+def test_an_arrow_of_the_table_may_be_used(tmp_path: Path, module: str, text: str) -> None:
+    """What the table allows is allowed."""
+    _write(tmp_path, module, text)
+    assert not broken_arrows(tmp_path)
