@@ -6,14 +6,11 @@ every machine, with no random generator.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from assignment.posegraph import PoseGraph
+from autograder.problems.cases import Case
 from autograder.problems.families.worked_example import worked_example
-
-Case = tuple[Any, ...]
 
 GOLDEN = 0.6180339887498949
 

@@ -11,8 +11,8 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis.errors import HypothesisWarning
 from hypothesis.strategies import SearchStrategy
 
-from assignment.posegraph import PoseGraph
-from autograder.problems.ladders import Case, Ladder
+from autograder.problems.cases import Case, key, simplicity
+from autograder.problems.ladders import Ladder
 from autograder.problems.strategies import STRATEGIES
 
 MAX_ROUNDS = 20
@@ -89,39 +89,6 @@ def _generate(strategy: SearchStrategy[Case], count: int, number: int) -> list[C
         warnings.simplefilter("ignore", HypothesisWarning)
         collect()
     return drawn
-
-
-def key(case: Case) -> bytes:
-    """Identify a case by the bytes of its numbers."""
-    parts = []
-    for argument in case:
-        arrays = (
-            (np.array(argument.n_poses), *_fields(argument)) if isinstance(argument, PoseGraph) else (argument,)
-        )
-        parts += [repr(array.shape).encode() + array.tobytes() for array in arrays]
-    return hashlib.sha256(b"|".join(parts)).digest()
-
-
-def simplicity(case: Case) -> tuple[int, int, bytes]:
-    """Order cases: fewer numbers first, then fewer digits."""
-    arrays = [
-        array
-        for argument in case
-        for array in (_fields(argument) if isinstance(argument, PoseGraph) else (argument,))
-    ]
-    numbers = [number for array in arrays for number in array.ravel().tolist()]
-    return len(numbers), sum(len(f"{number:g}") for number in numbers), key(case)
-
-
-def _fields(graph: PoseGraph) -> tuple[np.ndarray, ...]:
-    return (
-        graph.edges,
-        graph.measurements,
-        graph.edge_variances,
-        graph.priors,
-        graph.prior_means,
-        graph.prior_variances,
-    )
 
 
 def _apportion(shares: list[float], total: int) -> list[int]:

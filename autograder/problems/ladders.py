@@ -7,12 +7,9 @@ worker that only judges never imports it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from autograder.problems import core
-
-Case = tuple[Any, ...]
-"""The arguments of one call: float64 arrays and pose graphs."""
+from autograder.problems.cases import Case
 
 
 @dataclass(frozen=True)

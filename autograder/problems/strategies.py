@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
 from assignment.posegraph import PoseGraph
+from autograder.problems.cases import Case
 from autograder.problems.core import jitter
 from autograder.problems.graphs import MAX_CONDITION, information
-from autograder.problems.ladders import Case
 
 VARIANCES = (0.01, 0.02, 0.04, 0.05, 0.1)
 DECADES = (0.002, 0.01, 0.05, 0.2, 1.0, 5.0, 20.0)

@@ -14,7 +14,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from autograder.problems.ladders import Case, Ladder
+from autograder.problems.cases import Case
+from autograder.problems.ladders import Ladder
 
 Array = NDArray[np.float64]
 Shape = tuple[int, ...]
@@ -132,7 +133,10 @@ class Stage(ABC):
 
     @abstractmethod
     def explain(self, case: Case, got: tuple[Array, ...]) -> str:
-        """Say in the subject's words what is wrong with finite numbers of the right shape."""
+        """Say in the subject's words what is wrong with finite numbers of the right shape.
+
+        `got` holds all arrays that the calls of the case returned, in order.
+        """
 
 
 class ArrayStage(Stage):
@@ -144,11 +148,13 @@ class ArrayStage(Stage):
 
     def prepare(self, cases: Sequence[Case]) -> Batch:
         """Stack expected values and tolerances of all cases."""
-        arrays = [array for case in cases for array in self.expected(*case)]
+        calls = [call for case in cases for call in self.calls(case)]
+        answers = [self.expected(*call) for call in calls]
+        arrays = [array for answer in answers for array in answer]
         allowed = [
             np.broadcast_to(tolerance, array.shape)
-            for case in cases
-            for tolerance, array in zip(self.tolerance(*case), self.expected(*case), strict=True)
+            for call, answer in zip(calls, answers, strict=True)
+            for tolerance, array in zip(self.tolerance(*call), answer, strict=True)
         ]
         ends = np.cumsum([array.size for array in arrays])
         return Batch(

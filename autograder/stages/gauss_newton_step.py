@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assignment.posegraph import PoseGraph
-from autograder.problems.ladders import GRAPHS, Case
+from autograder.problems.cases import Case
+from autograder.problems.ladders import GRAPHS
 from autograder.stages.base import Answers, Array, Batch, Stage, aligned
 from autograder.stages.wording import number, vector
 from reference_solution import slam1d

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from assignment.posegraph import PoseGraph
-from autograder.problems.ladders import GRAPHS, Case
+from autograder.problems.cases import Case
+from autograder.problems.ladders import GRAPHS
 from autograder.stages.base import Array, ArrayStage
 from autograder.stages.wording import factor, number
 from reference_solution import slam1d
@@ -44,7 +45,7 @@ class InformationMatrix(ArrayStage):
 
     def explain(self, case: Case, got: tuple[Array, ...]) -> str:
         """Name the first wrong weight, or the entry beside the diagonal that is not 0."""
-        (graph,) = case
+        _, graph = case
         omega = self.expected(graph)[0]
         wrong = ~(np.abs(got[0] - omega) <= self.tolerance(graph)[0])
         rows = np.flatnonzero(np.diag(wrong))

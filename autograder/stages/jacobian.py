@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from assignment.posegraph import PoseGraph
-from autograder.problems.ladders import GRAPHS, Case
+from autograder.problems.cases import Case
+from autograder.problems.ladders import GRAPHS
 from autograder.stages.base import Array, ArrayStage
 from autograder.stages.wording import factor, vector
 from reference_solution import slam1d

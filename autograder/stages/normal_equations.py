@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from autograder.problems.ladders import MATRICES, Case
+from autograder.problems.cases import Case
+from autograder.problems.ladders import MATRICES
 from autograder.stages.base import Array, ArrayStage
 from autograder.stages.wording import number, vector
 from reference_solution import slam1d

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assignment.posegraph import PoseGraph
-from autograder.problems.ladders import LOOPS, Case
+from autograder.problems.ladders import LOOPS
+from autograder.problems.cases import Case
 from autograder.problems.graphs import information, loop_edges, with_measurement
 from autograder.stages.base import Answers, Array, Batch, Stage, aligned
 from autograder.stages.wording import number, vector

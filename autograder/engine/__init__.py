@@ -1,0 +1,1 @@
+"""From submissions to results: the drawn cases, the judging, the processes, the store."""

@@ -1,0 +1,96 @@
+"""The corpus: every case of a run, drawn once from the seed; it travels as bytes and is known by its digest."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from assignment.posegraph import PoseGraph
+from autograder.problems.cases import Case
+from autograder.problems.ladders import Ladder
+from autograder.stages.base import Stage
+
+Rungs = dict[str, tuple[Case, ...]]
+
+
+@dataclass(frozen=True)
+class Corpus:
+    """The cases of every ladder, rung by rung.
+
+    Attributes
+    ----------
+    cases : dict
+        Ladder name to rung name to cases.
+    digest : str
+        SHA-256 of the corpus as bytes.
+    """
+
+    cases: dict[str, Rungs]
+    data: bytes
+    digest: str
+
+
+def draw_corpus(stages: Sequence[Stage], seed: int, examples: int) -> Corpus:
+    """Draw the cases of all ladders that the stages climb. Only the client of a run calls this."""
+    from autograder.problems.draw import draw_ladder  # needs hypothesis, which a worker never loads
+
+    ladders: dict[str, Ladder] = {stage.ladder.name: stage.ladder for stage in stages}
+    return _corpus({name: draw_ladder(ladder, seed, examples) for name, ladder in sorted(ladders.items())})
+
+
+def _corpus(cases: dict[str, Rungs]) -> Corpus:
+    plain = {
+        ladder: {rung: [[_plain(argument) for argument in case] for case in found] for rung, found in rungs.items()}
+        for ladder, rungs in cases.items()
+    }
+    data = msgspec.msgpack.encode(plain)
+    return Corpus(cases, data, hashlib.sha256(data).hexdigest())
+
+
+def load_corpus(data: bytes) -> Corpus:
+    """Rebuild a corpus from its bytes."""
+    plain = msgspec.msgpack.decode(data)
+    cases = {
+        ladder: {rung: tuple(tuple(_value(item) for item in case) for case in found) for rung, found in rungs.items()}
+        for ladder, rungs in plain.items()
+    }
+    return Corpus(cases, data, hashlib.sha256(data).hexdigest())
+
+
+def _plain(argument: Any) -> list[Any]:
+    if isinstance(argument, PoseGraph):
+        arrays = (
+            argument.edges,
+            argument.measurements,
+            argument.edge_variances,
+            argument.priors,
+            argument.prior_means,
+            argument.prior_variances,
+        )
+        return ["graph", argument.n_poses, *(_bytes(array) for array in arrays)]
+    return ["array", list(argument.shape), _bytes(argument)]
+
+
+def _bytes(array: np.ndarray) -> bytes:
+    kind = "<i8" if array.dtype.kind == "i" else "<f8"
+    return array.astype(kind).tobytes()
+
+
+def _value(item: list[Any]) -> Any:
+    if item[0] == "array":
+        return np.frombuffer(item[2], dtype="<f8").reshape(item[1])
+    _, n_poses, edges, measurements, variances, priors, means, prior_variances = item
+    return PoseGraph(
+        n_poses,
+        np.frombuffer(edges, dtype="<i8").reshape(-1, 2),
+        np.frombuffer(measurements, dtype="<f8"),
+        np.frombuffer(variances, dtype="<f8"),
+        np.frombuffer(priors, dtype="<i8"),
+        np.frombuffer(means, dtype="<f8"),
+        np.frombuffer(prior_variances, dtype="<f8"),
+    )
