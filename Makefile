@@ -53,7 +53,7 @@ lock: $(VENV)/ready
 		--custom-compile-command "make lock" --group dev pyproject.toml --output-file requirements.lock
 
 clean:
-	@rm -rf $(VENV) dist demo .coverage .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	@rm -rf $(VENV) dist slam1d-demo .coverage .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	@find . -name __pycache__ -type d -prune -exec rm -rf {} +
 	@echo "clean"
 
@@ -65,8 +65,8 @@ $(VENV)/ready: requirements.lock pyproject.toml $(ANEW)
 	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null || { \
 		echo "$(PYTHON) has no venv or no pip; install the package python3-venv (Debian, Ubuntu: apt-get install python3-venv)." >&2; exit 1; }
 	@echo "--- setting up $(VENV) with $$($(PYTHON) -V) (once; about a minute)"
-	@test ! -e $(VENV)/made-for || rm -rf $(VENV)
-	@$(PYTHON) -m venv $(VENV)
+	@test -z "$(ANEW)" || test ! -e $(VENV)/made-for || rm -rf $(VENV)
+	@$(PY) -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv $(VENV)
 	@$(PIP) install --require-hashes -r requirements.lock
 	@$(PIP) install --no-deps --no-build-isolation -e .
 	@echo "$(PLACE)" > $(VENV)/made-for

@@ -1,0 +1,115 @@
+"""The wheel is whole: installed into an empty environment it does, outside the checkout, what the checkout does."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import os
+import shutil
+import subprocess
+import sys
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGES = ("assignment", "autograder", "reference_solution")
+
+
+def _run(*command: str | Path, cwd: Path, home: Path | None = None) -> subprocess.CompletedProcess[str]:
+    run = subprocess.run(
+        command,
+        cwd=cwd,
+        env={"PATH": "/usr/bin:/bin", "HOME": str(home or cwd), "PYTHONWARNINGS": "error"},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, f"{command} ended with {run.returncode}:\n{run.stdout}\n{run.stderr}"
+    return run
+
+
+@pytest.fixture(scope="session")
+def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Build the wheel from this checkout."""
+    out = tmp_path_factory.mktemp("wheel")
+    _run(sys.executable, "-m", "hatchling", "build", "--target", "wheel", "--directory", out, cwd=ROOT, home=out)
+    (built,) = out.glob("*.whl")
+    return built
+
+
+@pytest.fixture(scope="session")
+def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Make an empty environment and install the wheel and what it declares into it; return its bin folder.
+
+    What it declares is taken file by file from this environment, which holds the locked versions:
+    no network, and a dependency that is not declared is not there.
+    """
+    place = tmp_path_factory.mktemp("environment")
+    venv.create(place, symlinks=True)
+    (site,) = place.glob("lib/python*/site-packages")
+    metadata = importlib.metadata.Distribution.at(_unpacked_metadata(wheel, tmp_path_factory.mktemp("metadata")))
+    for name in _closure(metadata.requires or []):
+        _copy(importlib.metadata.distribution(name), site)
+    pip = (sys.executable, "-m", "pip", "--python", place / "bin" / "python", "--disable-pip-version-check")
+    _run(*pip, "install", "--quiet", "--no-deps", "--no-index", wheel, cwd=place)
+    _run(*pip, "check", cwd=place)
+    return place / "bin"
+
+
+def _unpacked_metadata(wheel: Path, out: Path) -> Path:
+    with zipfile.ZipFile(wheel) as archive:
+        (name,) = (name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
+        archive.extract(name, out)
+    return (out / name).parent
+
+
+def _closure(requirements: list[str]) -> set[str]:
+    found: set[str] = set()
+    queue = list(requirements)
+    while queue:
+        requirement = Requirement(queue.pop())
+        wanted = requirement.marker is None or requirement.marker.evaluate({"extra": ""})
+        if wanted and requirement.name not in found:
+            found.add(requirement.name)
+            queue += importlib.metadata.requires(requirement.name) or []
+    return found
+
+
+def _copy(distribution: importlib.metadata.Distribution, site: Path) -> None:
+    for file in distribution.files or []:
+        source = Path(str(file.locate()))
+        if ".." in file.parts or source.suffix == ".pyc" or not source.exists():
+            continue  # scripts in bin, and what Python compiles again
+        (site / file).parent.mkdir(parents=True, exist_ok=True)
+        try:
+            os.link(source, site / file)
+        except OSError:  # another file system
+            shutil.copyfile(source, site / file)
+
+
+def _files(root: Path) -> set[str]:
+    paths = (path for package in PACKAGES for path in (root / package).rglob("*") if path.is_file())
+    return {path.relative_to(root).as_posix() for path in paths if "__pycache__" not in path.parts}
+
+
+@pytest.mark.slow
+def test_the_wheel_holds_every_file_of_the_packages(wheel: Path) -> None:
+    """Templates, notebooks, figures and specimens travel with the code, and nothing else does."""
+    with zipfile.ZipFile(wheel) as archive:
+        names = {name for name in archive.namelist() if ".dist-info/" not in name}
+        licences = [name for name in archive.namelist() if name.endswith("LICENSE")]
+    assert names == _files(ROOT)
+    assert licences
+
+
+@pytest.mark.slow
+def test_the_wheel_is_imported_from_where_it_is_installed(installed: Path, tmp_path: Path) -> None:
+    """In the empty environment the three packages are the wheel's, not the checkout's."""
+    code = f"import {', '.join(PACKAGES)}; print({', '.join(f'{name}.__file__' for name in PACKAGES)}, sep='\\n')"
+    places = _run(installed / "python", "-c", code, cwd=tmp_path).stdout.split()
+    assert all(Path(place).is_relative_to(installed.parent) for place in places)
+    assert len(places) == len(PACKAGES)
