@@ -206,7 +206,7 @@ def weights_halved(graph: PoseGraph) -> np.ndarray:
 def weights_normalised(graph: PoseGraph) -> np.ndarray:
     """The weights are scaled so that they add up to 1.
 
-    The step does not notice, but Omega has a unit: it says how certain each measurement is, not only which is more so.
+    The step does not notice, but Omega has a unit: it says how certain each single measurement is.
     """
     omega = right.information_matrix(graph)
     omega /= np.trace(omega)
