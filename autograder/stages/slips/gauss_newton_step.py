@@ -1,0 +1,335 @@
+"""Slips of `gauss_newton_step`: what comes instead of dx, each as one whole wrong step.
+
+Merged, because they are the same numbers: H1 followed by a right solution (S1); a step that returns x + dx, and one
+with b taken at x = 0 (both H18); H17 solved by pseudo-inverse or least squares (S17). T3, the in-place `x += dx`,
+returns the right dx: it is remarked on as a changed input.
+"""
+# ruff: noqa: ARG001, D401 - a slip has the stage's signature, used or not, and its docstring states what is wrong
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from autograder.stages.slips.catalogue import Catalogue
+from reference_solution import slam1d as right
+
+if TYPE_CHECKING:
+    from assignment.posegraph import PoseGraph
+
+slip = Catalogue()
+
+
+@slip("H15")
+def prior_weight_one_in_H(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The prior enters H with the weight 1 instead of its own.
+
+    Adding 1 to the diagonal makes H invertible, but b speaks of the prior with another certainty; both must agree.
+    """
+    k = len(graph.edges)
+    omega, omega_of_H = right.information_matrix(graph), right.information_matrix(graph)
+    omega_of_H[k:, k:] = np.eye(len(graph.priors))
+    J = right.jacobian(x, graph)
+    H, _ = right.normal_equations(J, omega_of_H, right.residual(x, graph))
+    _, b = right.normal_equations(J, omega, right.residual(x, graph))
+    return np.linalg.solve(H, -b)
+
+
+@slip("H16")
+def prior_missing_in_b(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The prior enters H but not b.
+
+    H says how firmly the prior holds its pose, b how far the pose is from it; at the start this distance may be 0.
+    """
+    f = right.residual(x, graph)
+    f[len(graph.edges) :] = 0.0
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), f)
+    return np.linalg.solve(H, -b)
+
+
+@slip("S17, H17")
+def prior_left_out_shortest_step(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The prior is left out, and of all steps that fit the edges the shortest is taken.
+
+    Measured differences cannot say where the whole chain stands. Which factor can? A pseudo-inverse hides the question.
+    """
+    k = len(graph.edges)
+    J, omega, f = right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph)
+    H, b = right.normal_equations(J[:k], omega[:k, :k], f[:k])
+    step: np.ndarray = np.linalg.pinv(H, rcond=1e-10) @ -b
+    return step
+
+
+@slip("S18, H17")  # what comes out is rounding noise: it is named where the student's arithmetic is the same
+def prior_left_out_singular(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The prior is left out, and a singular H is solved all the same.
+
+    A solver need not complain: rounding can make H just invertible, and the chain lands anywhere. What should hold it?
+    """
+    k = len(graph.edges)
+    J, omega, f = right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph)
+    H, b = right.normal_equations(J[:k], omega[:k, :k], f[:k])
+    try:
+        return np.linalg.solve(H, -b)
+    except np.linalg.LinAlgError:  # only where the elimination meets an exact 0
+        return np.zeros(graph.n_poses)
+
+
+@slip("H18")
+def position_returned_as_step(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The new position is returned instead of the step that leads to it.
+
+    It happens by returning x + dx, and also by evaluating f at 0 instead of at x. From where does your step begin?
+    """
+    f = right.residual(np.zeros(graph.n_poses), graph)
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), f)
+    return np.linalg.solve(H, -b)
+
+
+@slip("S1, H1")
+def step_has_opposite_sign(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step leads away from the minimum.
+
+    b points uphill; where does the minus of the normal equations stand in your code, and does it stand there once?
+    """
+    return -right.gauss_newton_step(x, graph)
+
+
+@slip("S4")
+def step_half_as_long(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step is half as long as it should be.
+
+    A learning rate belongs to gradient descent, which knows no H. What does H know that makes it unnecessary?
+    """
+    return 0.5 * right.gauss_newton_step(x, graph)
+
+
+@slip()
+def step_twice_as_long(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step is twice as long as it should be.
+
+    The square of the cost brings a factor 2 to the gradient and to the Hessian alike; keep it in both or in neither.
+    """
+    return 2.0 * right.gauss_newton_step(x, graph)
+
+
+@slip("S5")
+def step_damped(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """A small number is added to the diagonal of H before solving.
+
+    Damping is for problems that are not linear or not determined; here it only keeps the step from arriving.
+    """
+    J, f = right.jacobian(x, graph), right.residual(x, graph)
+    H, b = right.normal_equations(J, right.information_matrix(graph), f)
+    return np.linalg.solve(H + 1e-3 * np.eye(graph.n_poses), -b)
+
+
+@slip()
+def gradient_descent_step(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step goes down the gradient by a fixed rate and does not use H.
+
+    The gradient knows the direction but not the distance; which matrix knows how the cost bends?
+    """
+    J, f = right.jacobian(x, graph), right.residual(x, graph)
+    _, b = right.normal_equations(J, right.information_matrix(graph), f)
+    return -1e-3 * b
+
+
+@slip()
+def each_pose_corrected_alone(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """Every pose is corrected by the diagonal of H alone.
+
+    When one pose moves, its neighbours have to follow: the entries beside the diagonal say by how much.
+    """
+    J, f = right.jacobian(x, graph), right.residual(x, graph)
+    H, b = right.normal_equations(J, right.information_matrix(graph), f)
+    step: np.ndarray = -b / np.diag(H)
+    return step
+
+
+@slip()
+def H_inverted_entry_by_entry(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """H is inverted entry by entry.
+
+    The inverse of a matrix is not the matrix of inverses; which system of equations has the step as its solution?
+    """
+    J, f = right.jacobian(x, graph), right.residual(x, graph)
+    H, b = right.normal_equations(J, right.information_matrix(graph), f)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        step: np.ndarray = (1.0 / H) @ -b
+    return step
+
+
+@slip("S9")
+def step_rounded_to_2_decimals(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step is rounded to two decimals.
+
+    Round what you print, never what you go on calculating with.
+    """
+    return right.gauss_newton_step(x, graph).round(2)
+
+
+@slip("S10")
+def step_rounded_to_4_decimals(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step is rounded to four decimals.
+
+    Four decimals look like enough on paper; the next step starts where this one ends and sees what is missing.
+    """
+    return right.gauss_newton_step(x, graph).round(4)
+
+
+@slip("S11")
+def pose_0_clamped_to_origin(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """Pose 0 is put at 0 after the step.
+
+    Where pose 0 ends up is for the priors to say, and they may believe something else, or speak of another pose.
+    """
+    step = right.gauss_newton_step(x, graph)
+    step[0] = -x[0]
+    return step
+
+
+@slip("S12")
+def pose_0_held_at_its_start(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """Pose 0 is not allowed to move: its row and column are taken out.
+
+    That treats the start of pose 0 as certain; it is a guess like the others, and only the prior says how good.
+    """
+    J, f = right.jacobian(x, graph), right.residual(x, graph)
+    H, b = right.normal_equations(J, right.information_matrix(graph), f)
+    return np.concatenate([[0.0], np.linalg.solve(H[1:, 1:], -b[1:])])
+
+
+@slip("S13")
+def chain_shifted_to_origin(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The whole chain is shifted after the step so that pose 0 stands at 0.
+
+    The priors say where the chain stands, and the step has heard them already; a shift afterwards overrules them.
+    """
+    arrived = x + right.gauss_newton_step(x, graph)
+    return arrived - arrived[0] - x
+
+
+@slip("S15")
+def step_without_weights(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step comes from least squares without weights.
+
+    A solver that is given J and f alone treats all rows alike; how does it learn that some are more certain?
+    """
+    step: np.ndarray = np.linalg.lstsq(right.jacobian(x, graph), -right.residual(x, graph), rcond=None)[0]
+    return step
+
+
+@slip("S16")
+def step_with_squared_weights(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The rows are scaled by their weights before least squares, so that every weight is squared.
+
+    A least-squares solver squares what it is given; by what must a row be scaled so that its weight comes out right?
+    """
+    J, omega, f = right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph)
+    step: np.ndarray = np.linalg.lstsq(omega @ J, -omega @ f, rcond=None)[0]
+    return step
+
+
+@slip(minimum_poses=3)
+def loops_left_out(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The loop closures are left out of the step.
+
+    Without them the chain hangs on the odometry alone; what do they know that the odometry does not?
+    """
+    i, j = graph.edges.T
+    heard = np.concatenate([np.abs(j - i) == 1, np.ones(len(graph.priors), dtype=bool)])
+    root = np.sqrt(right.information_matrix(graph))[heard][:, heard]
+    J, f = right.jacobian(x, graph)[heard], right.residual(x, graph)[heard]
+    step: np.ndarray = np.linalg.lstsq(root @ J, -root @ f, rcond=None)[0]
+    return step
+
+
+@slip("S20")
+def drift_spread_evenly(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The gap of the last edge is spread evenly over the poses between its ends.
+
+    That is right only where all variances are equal, nothing else is out of place and there is one loop.
+    """
+    i, j = graph.edges[-1]
+    gap = x[i] + graph.measurements[-1] - x[j]
+    way = np.clip((np.arange(graph.n_poses) - i) / (j - i), 0.0, 1.0)
+    step: np.ndarray = gap * way * abs(j - i) / (abs(j - i) + 1)
+    step -= step[0]
+    return step
+
+
+@slip("S21")
+def step_of_worked_example(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step is the printed one of the worked example.
+
+    Those five numbers hold for one graph from one start; solve the equations of the graph that you are given.
+    """
+    return np.array([0.0, -0.1, -0.2, -0.3, -0.4])
+
+
+@slip("S24")
+def step_in_single_precision(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The equations are solved in single precision.
+
+    Half of the digits are gone, and an uneven H loses more; what type do your arrays have?
+    """
+    J, f = right.jacobian(x, graph), right.residual(x, graph)
+    H, b = right.normal_equations(J, right.information_matrix(graph), f)
+    return np.linalg.solve(H.astype(np.float32), -b.astype(np.float32))
+
+
+@slip("T1")
+def b_always_at_the_start(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The vector b is that of dead reckoning, whatever state is given.
+
+    f, and with it b, changes when the robot moves; work it out again at the state that you were given.
+    """
+    f = right.residual(graph.dead_reckoning(), graph)
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), f)
+    return np.linalg.solve(H, -b)
+
+
+@slip("T5")
+def odometry_taken_from_state(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The measurements between neighbours are replaced by the differences of the state.
+
+    A measurement does not change when the estimate does; if it is made to agree, it has nothing left to say.
+    """
+    i, j = graph.edges.T
+    f = right.residual(x, graph)
+    f[: len(i)][np.abs(j - i) == 1] = 0.0
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), f)
+    return np.linalg.solve(H, -b)
+
+
+@slip()
+def step_is_zero(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step is zero.
+
+    It is zero at the minimum only; does the state that you were given fit all measurements as well as it can?
+    """
+    return np.zeros(graph.n_poses)
+
+
+@slip()
+def step_to_the_origin(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step leads to the origin.
+
+    The measurements do not matter to this step; which of them should pull it where?
+    """
+    return -x
+
+
+@slip()
+def step_to_dead_reckoning(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step leads back to dead reckoning.
+
+    Dead reckoning is where the search may start: it has not heard the loop closures. Which state fits all factors best?
+    """
+    step: np.ndarray = graph.dead_reckoning() - x
+    return step
+
+
+SLIPS = slip.entries
