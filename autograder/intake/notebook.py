@@ -1,0 +1,146 @@
+"""A notebook becomes the texts of its code cells: read by name of field, within bounds, nothing executed.
+
+Only `cell_type` and `source` of each cell count. Ids, metadata, outputs, execution counts and attachments are skipped
+while reading, never built: a notebook whose cells were duplicated, retyped or stripped of metadata reads like any
+other, and what its metadata or outputs claim is not seen. Where a key stands twice the last one counts, as in Jupyter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import msgspec
+
+from autograder.errors import RejectedUpload
+from autograder.intake.module import MAX_SOURCE, one_newline, reject_foreign
+
+MAX_NOTEBOOK = 20 << 20  # bytes of the file, outputs included
+MAX_CELLS = 10_000
+_MAX_RAW = 6 * MAX_SOURCE  # a source as JSON: escapes make it longer, at most six bytes for one
+_UTF8_MARK = b"\xef\xbb\xbf"
+_OLD_FORMAT = "is a notebook of format {}, expected 4; open it in a current Jupyter, save it and hand it in again"
+
+
+class _Cell(msgspec.Struct, gc=False):
+    """A cell as written; `source` stays undecoded until its length is known to be fit."""
+
+    cell_type: str
+    source: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
+
+
+class _Notebook(msgspec.Struct):
+    cells: list[_Cell] | msgspec.UnsetType = msgspec.UNSET
+    worksheets: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET  # where formats 2 and 3 keep their cells
+    nbformat: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
+
+
+_NOTEBOOK = msgspec.json.Decoder(_Notebook)
+_SOURCE = msgspec.json.Decoder(str | list[str])
+
+
+@dataclass(frozen=True)
+class Notebook:
+    """The texts of a notebook, in order: what may be executed, and what a human may read."""
+
+    code: tuple[str, ...]
+    markdown: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+
+
+def read_notebook(data: bytes) -> Notebook:
+    """Read a notebook of format 4; raises RejectedUpload with the end of a sentence where it is none."""
+    if len(data) > MAX_NOTEBOOK:
+        raise RejectedUpload("is larger than 20 MiB; clear all outputs in Jupyter, save it and hand it in again")
+    reject_foreign(data)
+    notebook = _decode(data)
+    version = _version(notebook.nbformat)
+    if notebook.cells is msgspec.UNSET:
+        if notebook.worksheets is not msgspec.UNSET or version in ("1", "2", "3"):
+            raise RejectedUpload(_OLD_FORMAT.format(version or "3"))
+        raise RejectedUpload("is JSON but no notebook (it has no cells); save the notebook in Jupyter and hand in that")
+    if version in ("1", "2", "3"):
+        raise RejectedUpload(_OLD_FORMAT.format(version))
+    if not notebook.cells:
+        raise RejectedUpload("is a notebook without cells; check that you handed in the file you worked in")
+    if len(notebook.cells) > MAX_CELLS:
+        raise RejectedUpload(f"has {len(notebook.cells)} cells, more than the limit of {MAX_CELLS}")
+    code, notes = _code(notebook.cells)
+    if not code:
+        notes.append("The notebook has no code cell.")
+    if version != "4":
+        notes.append(f"The notebook names its format {version!r}, not 4; its cells were read all the same.")
+    return Notebook(tuple(code), tuple(_markdown(notebook.cells)), tuple(notes))
+
+
+def looks_like_notebook(data: bytes) -> bool:
+    """Say whether the bytes are a notebook by their content, whatever the file is called."""
+    head = data[:200].removeprefix(_UTF8_MARK).lstrip()
+    return head.startswith(b"{") and b'"cells"' in data and b'"cell_type"' in data and b'"nbformat"' in data
+
+
+def _decode(data: bytes) -> _Notebook:
+    body = data.removeprefix(_UTF8_MARK)
+    try:
+        return _NOTEBOOK.decode(body)
+    except RecursionError:
+        raise RejectedUpload("is JSON nested too deeply for a notebook; save it in Jupyter again") from None
+    except msgspec.ValidationError as error:
+        raise RejectedUpload(f"is JSON but no notebook ({error}); save it in Jupyter and hand it in again") from None
+    except (msgspec.DecodeError, UnicodeDecodeError, ValueError):
+        if not body.strip():
+            raise RejectedUpload("is empty, expected a notebook; save it in Jupyter and hand it in again") from None
+        if b"<<<<<<< " in body and b">>>>>>> " in body:
+            raise RejectedUpload("holds an unfinished git merge; resolve it, open it in Jupyter and save it") from None
+        if not body.lstrip().startswith(b"{"):
+            raise RejectedUpload("is no notebook (not JSON); a Python file needs a name that ends in .py") from None
+        raise RejectedUpload("is no valid JSON, so no notebook; open it in Jupyter and save it again") from None
+
+
+def _version(raw: msgspec.Raw | msgspec.UnsetType) -> str:
+    """Return `nbformat` as it is written, at most a few characters of it."""
+    return "" if isinstance(raw, msgspec.UnsetType) else bytes(raw)[:12].decode("ascii", "replace").removesuffix(".0")
+
+
+def _code(cells: list[_Cell]) -> tuple[list[str], list[str]]:
+    code: list[str] = []
+    notes: list[str] = []
+    raw_left, left = _MAX_RAW, MAX_SOURCE
+    for number, cell in enumerate(cells, start=1):
+        if cell.cell_type == "code":
+            raw_left -= 0 if isinstance(cell.source, msgspec.UnsetType) else memoryview(cell.source).nbytes
+            text = _text(cell, number) if raw_left >= 0 else ""
+            left -= len(text.encode())
+            if min(raw_left, left) < 0:
+                raise RejectedUpload("has more than 1 MiB of code; move data out of the cells")
+            code.append(text)
+        elif cell.cell_type not in ("markdown", "raw"):
+            notes.append(f"Cell {number} is of the unknown type {cell.cell_type[:20]!r} and was not read.")
+    return code, notes[:5]
+
+
+def _markdown(cells: list[_Cell]) -> list[str]:
+    """Return the markdown cells, as far as they are readable and together within the limit of code."""
+    texts: list[str] = []
+    raw_left = _MAX_RAW
+    for number, cell in enumerate(cells, start=1):
+        if cell.cell_type == "markdown" and not isinstance(cell.source, msgspec.UnsetType):
+            raw_left -= memoryview(cell.source).nbytes
+            if raw_left < 0:
+                break
+            try:
+                texts.append(_text(cell, number))
+            except RejectedUpload:
+                continue
+    return texts
+
+
+def _text(cell: _Cell, number: int) -> str:
+    if isinstance(cell.source, msgspec.UnsetType):
+        return ""
+    try:
+        source = _SOURCE.decode(cell.source)
+    except (msgspec.DecodeError, RecursionError, ValueError):
+        raise RejectedUpload(
+            f"has no readable source in cell {number} (expected a text or a list of lines); save it in Jupyter again"
+        ) from None
+    return one_newline(source if isinstance(source, str) else "".join(source))
