@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -23,6 +24,7 @@ NOT_OURS = {
 }
 MOST_LINES = 300  # the rule is about 250
 LONGER = {"assignment/posegraph.py": 340}  # a student gets one file of given code, most of it docstring
+SILENCERS = r"# (?:ruff: )?noqa(?:: [A-Z]+\d+(?:, ?[A-Z]+\d+)*)?|# type: ignore(?:\[[\w, -]+\])?|# pragma: no \w+"
 VAGUE = {"utils", "util", "helpers", "helper", "common", "misc"}
 
 
@@ -59,6 +61,28 @@ def test_a_file_is_named_for_its_idea() -> None:
     """No module has a name under which anything could stand."""
     vague = [str(path.relative_to(ROOT)) for path in modules() if VAGUE & {path.stem, path.parent.name}]
     assert not vague, f"name these for what they hold: {vague}"
+
+
+def bare_exceptions(text: str) -> list[str]:
+    """Find the comments that silence a checker and do not say why."""
+    lines = [line[line.index("#") :] for line in text.splitlines() if re.search(SILENCERS, line)]
+    return [line for line in lines if len(re.sub(SILENCERS, "", line).strip(" #-")) < len("it is so")]
+
+
+def test_an_exception_gives_its_reason() -> None:
+    """Whoever silences a checker says why on the same line."""
+    bare = [
+        f"{path.relative_to(ROOT)}: {line}" for path in modules() for line in bare_exceptions(path.read_text("utf-8"))
+    ]
+    assert not bare, "\n".join(bare)
+
+
+def test_a_bare_exception_is_seen() -> None:
+    """A silencer with a reason passes, one without does not."""
+    mark = "# noqa: "
+    assert not bare_exceptions(f"x = 1  {mark}E501, PLR2004 - a table is read across")
+    assert not bare_exceptions(f"x = 1  {mark}E501 (a table is read across)")
+    assert bare_exceptions(f"x = 1  {mark}E501, PLR2004") == [f"{mark}E501, PLR2004"]
 
 
 @pytest.mark.skipif(len(ROOT.parts) < 3, reason="the checkout's path is too short to be told from other text")
