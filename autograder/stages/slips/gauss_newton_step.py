@@ -208,7 +208,8 @@ def chain_shifted_to_origin(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     The priors say where the chain stands, and the step has heard them already; a shift afterwards overrules them.
     """
     arrived = x + right.gauss_newton_step(x, graph)
-    return arrived - arrived[0] - x
+    step: np.ndarray = arrived - arrived[0] - x
+    return step
 
 
 @slip("S15")

@@ -226,7 +226,7 @@ def weights_in_whole_numbers(graph: PoseGraph) -> np.ndarray:
 def covariance_inverted_entry_by_entry(graph: PoseGraph) -> np.ndarray:
     """The covariance is inverted entry by entry, zeros beside the diagonal included.
 
-    The inverse of a matrix is not the matrix of inverses; what should stand where two measurements have no common error?
+    The inverse of a matrix is not the matrix of inverses; what stands where two measurements share no error?
     """
     with np.errstate(divide="ignore"):
         omega: np.ndarray = 1.0 / np.diag(np.concatenate([graph.edge_variances, graph.prior_variances]))
