@@ -1,0 +1,1 @@
+"""What grading found, written for a terminal, a spreadsheet and a browser: one file a format."""

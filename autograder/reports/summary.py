@@ -1,0 +1,122 @@
+"""What a class of results says, as numbers: means, and what went wrong most; every report shows these."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from autograder.reports.wording import MARKS, plural, visible
+from autograder.verdicts import Result, StageVerdict
+
+FULL = ("passed", "not_graded", "awaiting_mark")
+
+
+@dataclass(frozen=True)
+class StageSummary:
+    """One stage over the class: its mean and how many have all of it, of those graded."""
+
+    name: str
+    max_score: float
+    mean: float
+    passed: int
+    graded: int
+    bonus: bool = False
+
+
+@dataclass(frozen=True)
+class Trouble:
+    """A reason for lost points in one stage, and the submissions that share it."""
+
+    stage: str
+    slip: str | None
+    reason: str
+    submissions: tuple[str, ...]
+
+    @property
+    def count(self) -> int:
+        """Number of submissions with this trouble."""
+        return len(self.submissions)
+
+
+def stage_names(results: Iterable[Result]) -> list[str]:
+    """Names of all stages, in the order in which the results hold them."""
+    return list(dict.fromkeys(stage.name for result in results for stage in result.stages))
+
+
+def stage_summaries(results: Sequence[Result]) -> list[StageSummary]:
+    """Average each stage over the graded submissions; stages that nobody grades yet are left out."""
+    summaries = []
+    for name in stage_names(results):
+        verdicts = [v for r in results if r.status == "graded" for v in r.stages if v.name == name]
+        judged = [v for v in verdicts if v.status not in ("not_graded", "awaiting_mark")]
+        if judged:
+            mean = sum(v.score for v in judged) / len(judged)
+            passed = sum(v.status == "passed" for v in judged)
+            most = max(v.max_score for v in judged)
+            summaries.append(StageSummary(name, most, mean, passed, len(judged), judged[0].bonus))
+    return summaries
+
+
+def mean_score(results: Iterable[Result]) -> float | None:
+    """Mean total of the graded submissions, None where there is none."""
+    scores = [r.score for r in results if r.status == "graded" and r.score is not None]
+    return sum(scores) / len(scores) if scores else None
+
+
+def troubles(results: Iterable[Result]) -> list[Trouble]:
+    """Group lost points by stage and reason, the most frequent first.
+
+    The reason is the recognised slip, or else the message. Where the same submissions lost several
+    stages for the same reason, these stages make one group.
+    """
+    order: dict[str, int] = {}
+    found: dict[tuple[str, str | None, str], list[str]] = {}
+    for result in results:
+        for stage in result.stages:
+            order.setdefault(stage.name, len(order))
+            if stage.status not in FULL:
+                found.setdefault((stage.name, stage.slip, reason(stage)), []).append(result.submission)
+    joined: dict[tuple[str | None, str, tuple[str, ...]], list[str]] = {}
+    for (name, slip, words), submissions in found.items():
+        joined.setdefault((slip, words, tuple(submissions)), []).append(name)
+    listed = [
+        Trouble(names[0] if len(names) == 1 else plural(len(names), "stage"), slip, words, submissions)
+        for (slip, words, submissions), names in joined.items()
+    ]
+    return sorted(listed, key=lambda t: (-t.count, order.get(t.stage, -1), t.reason))
+
+
+def reason(stage: StageVerdict) -> str:
+    """Say shortly why a stage lost points: the slip's name, else the message, else the status.
+
+    Examples
+    --------
+    >>> reason(StageVerdict(name="residual", status="failed", score=0.0, max_score=15.0, slip="prior_mean_dropped"))
+    'prior mean dropped'
+    """
+    if stage.slip:
+        return stage.slip.replace("_", " ")
+    if stage.status in ("missing", "timeout", "memory"):
+        return MARKS[stage.status][1]
+    return visible(stage.message) or MARKS[stage.status][1]
+
+
+def most_instructive(results: Iterable[Result]) -> tuple[Result, StageVerdict, dict[str, Any]] | None:
+    """Pick the counterexample that teaches most: a named slip that many share, drawn on a small graph."""
+    results = list(results)
+    shared = Counter((stage.name, stage.slip) for r in results for stage in r.stages)
+    best: tuple[tuple[Any, ...], tuple[Result, StageVerdict, dict[str, Any]]] | None = None
+    for result in results:
+        for position, stage in enumerate(result.stages):
+            for check in stage.checks:
+                example = check.counterexample
+                if check.passed or not example or not isinstance(example.get("got"), list):
+                    continue
+                graph = example.get("graph")
+                poses = graph.get("n_poses", 99) if isinstance(graph, dict) else 99
+                rank = (stage.slip is None, poses > 5, -shared[stage.name, stage.slip], position, poses)
+                if best is None or rank < best[0]:
+                    best = rank, (result, stage, example)
+    return best[1] if best else None

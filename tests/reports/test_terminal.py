@@ -1,0 +1,113 @@
+"""The terminal table: readable at 80 columns, without colour, and through a pipe."""
+
+from __future__ import annotations
+
+import io
+import re
+
+import pytest
+
+from autograder.reports.summary import most_instructive, stage_summaries, troubles
+from autograder.reports.terminal import class_table, console, print_class, went_wrong
+from tests.reports.examples import GRAPH, POINTS, WRONG_J, result, small_class, stage
+
+
+def printed(results: list, width: int) -> str:
+    """Print a class as a pipe would get it."""
+    file = io.StringIO()
+    print_class(results, console(file, width))
+    return file.getvalue()
+
+
+@pytest.mark.parametrize("width", [80, 100, 140])
+def test_no_line_is_wider_than_the_terminal(width: int) -> None:
+    """Names are cut and headings broken before a line is."""
+    assert max(map(len, printed(small_class(), width).splitlines())) <= width
+
+
+def test_ten_stages_fit_into_eighty_columns() -> None:
+    """Where headings do not fit, letters stand for them and a key below says which is which."""
+    many = [stage(name) for name in ("answers", "written", "sparsity_pattern", "range_factor")]
+    text = printed([result("alice", *many)], 80)
+    assert max(map(len, text.splitlines())) <= 80
+    assert "(j) range_factor" in text
+
+
+def test_a_pipe_gets_no_colour(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Text that is not for a terminal holds no control characters."""
+    monkeypatch.delenv("FORCE_COLOR", raising=False)
+    assert not re.search(r"[\x00-\x09\x0b-\x1f]", printed(small_class(), 80))
+
+
+def test_no_color_is_kept_and_the_marks_still_differ(monkeypatch: pytest.MonkeyPatch) -> None:
+    """States are told apart by shape: the text is the same with and without colour."""
+    monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    plain = printed(small_class(), 80)
+    assert "\x1b[3" not in plain
+    for mark in ("7.5 ~", "0 x", "0 !", "0 T", "0 M", "0 -", "0 F"):
+        assert mark in plain
+
+
+def test_a_submission_that_was_not_graded_has_its_reason_in_the_line() -> None:
+    """A rejected upload scores 0, our own fault has no score."""
+    lines = printed(small_class(), 140).splitlines()
+    [judy] = [line for line in lines if line.startswith("judy")]
+    [kim] = [line for line in lines if line.startswith("kim")]
+    assert "is no notebook" in judy
+    assert judy.endswith(" 0")
+    assert kim.endswith(" --")
+
+
+def test_means_are_over_graded_submissions_only() -> None:
+    """Rejected uploads and our own faults do not lower the class mean."""
+    summaries = {s.name: s for s in stage_summaries(small_class())}
+    assert summaries["residual"].graded == 9
+    assert summaries["residual"].mean == pytest.approx(7 * 15 / 9)
+    assert "of 9" in printed(small_class(), 80)
+
+
+def test_a_stage_that_nobody_grades_yet_is_named_and_has_no_column() -> None:
+    """It does not count, and does not look like a zero."""
+    lines = class_table([result("alice", stage("written", "not_graded"))], 80)
+    assert lines[-1].plain == "not graded yet: written"
+    assert not any("written" in line.plain for line in lines[:-1])
+
+
+def test_the_same_mistake_is_counted_once_for_all_who_made_it() -> None:
+    """The most frequent reason stands first; one that spans stages is one line."""
+    listed = troubles(small_class())
+    assert (listed[0].count, listed[0].stage, listed[0].reason) == (2, "jacobian", "loop sign flipped")
+    assert [(t.stage, t.submissions) for t in listed if t.reason == "not written"] == [("6 stages", ("erin",))]
+
+
+def test_a_class_without_mistakes_has_no_list_of_them() -> None:
+    """Nothing went wrong: nothing is printed below the table."""
+    assert went_wrong([result("alice")], 80) == []
+
+
+def test_hostile_names_and_messages_cannot_move_the_cursor() -> None:
+    """Control and bidi characters are printed as escapes; markup is text."""
+    evil = "\x1b[2J\u202e[red]x\nkim"
+    text = printed([result(evil, stage("residual", "error", message=f"raised {evil}"))], 140)
+    assert "\x1b" not in text
+    assert "\u202e" not in text
+    assert "[red]" in text
+
+
+def test_an_empty_class_prints() -> None:
+    """No submission at all is no reason to fail."""
+    assert "submission" in printed([], 80)
+
+
+def test_the_most_instructive_counterexample_is_a_named_slip_on_a_small_graph() -> None:
+    """A recognised slip beats an unknown mistake, a small graph a large one."""
+    large = {**WRONG_J, "graph": {**GRAPH, "n_poses": 100}}
+    unknown = result("a", stage("residual", "failed", counterexample=WRONG_J))
+    big = result("b", stage("jacobian", "failed", counterexample=large, slip="known"))
+    small = result("c", stage("jacobian", "failed", counterexample=WRONG_J, slip="known"))
+    picked = most_instructive([unknown, big, small])
+    assert picked is not None
+    assert picked[0].submission == "c"
+    assert most_instructive([result("alice")]) is None
+    assert list(POINTS)[1] == picked[1].name
