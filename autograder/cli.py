@@ -1,0 +1,120 @@
+"""The command line: finds the commands, and turns every outcome into one line and an exit code.
+
+A command is one file in autograder/commands with a `command` in it; nothing else names it. Heavy
+modules are imported inside the commands' functions, so that `--help` answers at once.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import pkgutil
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+import click
+
+from autograder import __version__, commands
+from autograder.errors import AutograderError
+
+DONE, DEFECT, USAGE, OUR_FAULT, INTERRUPTED = 0, 1, 2, 3, 130
+
+# In the order of a course: what a newcomer types first stands first. Others follow by name.
+_FIRST = ("demo", "init", "grade", "report", "doctor")
+
+
+class Commands(click.Group):
+    """The files of autograder/commands, as commands."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 (click asks for this signature)
+        """Name every command, the everyday ones first."""
+        found = {module.name for module in pkgutil.iter_modules(commands.__path__) if not module.name.startswith("_")}
+        return [name for name in _FIRST if name in found] + sorted(found.difference(_FIRST))
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import one command by its name."""
+        if cmd_name not in self.list_commands(ctx):
+            return None
+        command: click.Command = importlib.import_module(f"autograder.commands.{cmd_name}").command
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Say which commands there are where an unknown one is typed."""
+        if args and args[0] not in self.list_commands(ctx):
+            known = ", ".join(self.list_commands(ctx))
+            raise click.UsageError(f"There is no command {args[0]!r}; the commands are {known}.", ctx)
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Commands, no_args_is_help=True, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="autograder")
+@click.option("--debug", is_flag=True, help="Show the traceback of an unexpected error.")
+@click.pass_context
+def cli(ctx: click.Context, debug: bool) -> None:
+    """Grade a class of 1D SLAM homework: safely, fast, and with reasons.
+
+    \b
+    autograder demo                      the whole story on a small class
+    autograder init course.toml          a settings file to edit
+    autograder grade uploads/ -o graded  grade a folder of .py and .ipynb files
+    autograder doctor                    is this machine ready?
+
+    A command tells more with --help: autograder grade --help.
+    """
+    ctx.obj = debug
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Run the command line and leave with the contract's exit code; bad input never ends in a traceback."""
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        code = cli.main(args=arguments, prog_name="autograder", standalone_mode=False)
+        sys.stdout.flush()
+    except click.exceptions.NoArgsIsHelpError as help_wanted:
+        click.echo(help_wanted.format_message())
+        code = DONE
+    except click.ClickException as error:
+        code = _say(_usage(error), USAGE)
+    except AutograderError as error:
+        code = _say(str(error), error.exit_code)
+    except (KeyboardInterrupt, click.Abort):
+        code = _say("Interrupted. Results so far are kept; the same command goes on from there.", INTERRUPTED)
+    except BrokenPipeError:  # the reader of our output has left: `autograder grade ... --json | head -1`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = DONE
+    except Exception as error:  # the last resort: the user gets a sentence, the file gets the rest
+        if "--debug" in arguments:
+            raise
+        code = _say(_unexpected(error), OUR_FAULT)
+    sys.exit(code if isinstance(code, int) else DONE)
+
+
+def _say(sentence: str, code: int) -> int:
+    click.echo("autograder: " + " ".join(sentence.split()), err=True)
+    return code
+
+
+def _usage(error: click.ClickException) -> str:
+    """Put what came, what was expected and what to try on one line."""
+    ctx = getattr(error, "ctx", None)
+    message = error.format_message()
+    if ctx is None:
+        return message
+    return f"{message.rstrip('.')}. Try: {ctx.command_path} --help"
+
+
+def _unexpected(error: Exception) -> str:
+    import tempfile
+    import traceback
+
+    with tempfile.NamedTemporaryFile(
+        "w", prefix="autograder-", suffix=".traceback.txt", delete=False, encoding="utf-8"
+    ) as file:
+        traceback.print_exception(error, file=file)
+    return (
+        f"An error of the grader itself ({type(error).__name__}), no fault of a student; "
+        f"please report it with the traceback in {file.name}."
+    )

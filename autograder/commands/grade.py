@@ -1,0 +1,194 @@
+"""`autograder grade`: a folder of uploads in, marks with reasons out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from autograder.course import Course
+    from autograder.engine.grade import Run
+    from autograder.intake.submission import Submission
+
+LEVELS = ("full", "seccomp", "none")
+POLICIES = ("full", "hint", "score")
+
+
+@click.command()
+@click.argument("paths", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="PATH...")
+@click.option(
+    "-o",
+    "--output",
+    "out",
+    required=True,
+    type=click.Path(path_type=Path),
+    metavar="OUT",
+    help="Folder for the results; made where it is missing.",
+)
+@click.option(
+    "--course",
+    "course_file",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Settings of the course (see: autograder init).",
+)
+@click.option("--workers", type=click.IntRange(1), metavar="N", help="Processes at a time. [default: all cores]")
+@click.option(
+    "--seed", type=click.IntRange(0), metavar="S", help="Which cases are drawn. [default: the course's, or 0]"
+)
+@click.option("--examples", type=click.IntRange(1), metavar="N", help="Cases a stage. [default: the course's, or 200]")
+@click.option("--only", multiple=True, metavar="ID", help="Grade only this submission; may be given again.")
+@click.option("--fresh", is_flag=True, help="Grade everything again, whatever is stored in OUT.")
+@click.option(
+    "--time-limit",
+    type=click.FloatRange(0, min_open=True),
+    metavar="SECONDS",
+    help="CPU time a check may take. [default: the course's, or 2]",
+)
+@click.option("--feedback", type=click.Choice(POLICIES), help="How much students are shown.")
+@click.option("--min-confinement", type=click.Choice(LEVELS), help="Refuse to grade below this level.")
+@click.option("--allow-unconfined", is_flag=True, help="Grade without confinement: only code that you trust.")
+@click.option("--json", "as_json", is_flag=True, help="One result object a line to stdout, and no table.")
+def command(
+    paths: Sequence[Path], out: Path, course_file: Path | None, only: Sequence[str], as_json: bool, **options: Any
+) -> int:
+    """Grade files, folders of files, or both.
+
+    Reads .py and .ipynb, grades every submission in a locked process, and writes OUT/grades.csv,
+    OUT/results/ and OUT/run.json. A second run grades only what is new or changed.
+
+    \b
+    autograder grade uploads/ -o graded
+    autograder grade alice.py bob.ipynb -o graded
+    autograder grade uploads/ -o graded --course course.toml --seed 2026
+    autograder grade uploads/ -o graded --only alice
+    autograder grade uploads/ -o graded --json | jq .score
+
+    Exit code: 0 done, whatever the marks; 2 nothing could be read; 3 something could not be graded
+    through no fault of the student; 130 interrupted (results so far are kept).
+    """
+    from autograder.course import load_course
+    from autograder.intake.submission import collect
+
+    course = load_course(course_file)
+    submissions = _chosen(collect(list(paths)), only)
+    run = grade_and_report(submissions, course, out, merge=bool(only), **options)
+    show(run, out, as_json)
+    return exit_code(run)
+
+
+def _chosen(submissions: list[Submission], only: Sequence[str]) -> list[Submission]:
+    if not only:
+        return submissions
+    known = {submission.id for submission in submissions}
+    for name in only:
+        if name not in known:
+            import difflib
+
+            from autograder.errors import UsageError
+
+            near = difflib.get_close_matches(name, known, 1)
+            guess = f"did you mean {near[0]}?" if near else f"the first of them is {min(known)}."
+            raise UsageError(f"--only {name}: none of the {len(known)} submissions has this name; {guess}")
+    return [submission for submission in submissions if submission.id in only]
+
+
+def grade_and_report(
+    submissions: Sequence[Submission],
+    course: Course,
+    out: Path,
+    *,
+    workers: int | None = None,
+    seed: int | None = None,
+    examples: int | None = None,
+    fresh: bool = False,
+    time_limit: float | None = None,
+    feedback: str | None = None,
+    min_confinement: str | None = None,
+    allow_unconfined: bool = False,
+    merge: bool = False,
+) -> Run:
+    """Grade with the course's settings but for those given, and write the reports into `out`.
+
+    With `merge` the reports also hold the results that were in `out` before.
+    """
+    from dataclasses import replace
+
+    from autograder.commands._progress import progress
+    from autograder.engine.grade import Settings, grade
+    from autograder.reports.gradebook import write_gradebook
+
+    given: dict[str, Any] = {
+        "seed": seed if seed is not None else (course.seed or 0),
+        "examples": examples or course.examples,
+        "time_limit": time_limit or course.time_limit,
+        "feedback": feedback or course.feedback,
+        "min_confinement": min_confinement or course.min_confinement,
+    }
+    settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, **given)
+    make_folder(out)
+    with progress() as report:
+        run = grade(submissions, course, settings, out, report)
+    if merge:
+        run = replace(run, results=_merged(run, out))
+    write_gradebook(run.results, out / "grades.csv", course.stages)
+    return run
+
+
+def make_folder(out: Path) -> None:
+    """Make the folder for the results, or say in one sentence why not."""
+    from autograder.errors import UsageError
+
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"-o {out}: no folder can be made there ({error.strerror}); choose another.") from error
+
+
+def show(run: Run, out: Path, as_json: bool) -> None:
+    """Print results to stdout, and to stderr where the files are."""
+    if as_json:
+        import msgspec
+
+        for result in run.results:
+            click.echo(msgspec.json.encode(result))
+        return
+    from autograder.reports.terminal import console, print_class
+
+    print_class(run.results, console())
+    click.echo(f"\nWrote {out / 'grades.csv'} and {out / 'results'}.", err=True)
+
+
+def exit_code(run: Run) -> int:
+    """Return 130 for an interrupted run, 3 where something could not be graded, else 0."""
+    if run.interrupted:
+        click.echo("autograder: Interrupted. The same command goes on from here.", err=True)
+        return 130
+    broken = [result.submission for result in run.results if result.status == "grader_error"]
+    if broken:
+        click.echo(
+            f"autograder: {len(broken)} could not be graded, through no fault of the student "
+            f"({', '.join(broken[:3])}{', ...' if len(broken) > 3 else ''}); see results/ and `autograder doctor`.",
+            err=True,
+        )
+        return 3
+    return 0
+
+
+def _merged(run: Run, out: Path) -> tuple[Any, ...]:
+    import msgspec
+
+    from autograder.verdicts import decode
+
+    results = {}
+    for path in sorted((out / "results").glob("*.json")):
+        try:
+            result = decode(path.read_bytes())
+        except (OSError, msgspec.DecodeError):
+            continue  # not ours, or half written by something else
+        results[result.submission] = result
+    results.update({result.submission: result for result in run.results})
+    return tuple(results[name] for name in sorted(results))
