@@ -1,0 +1,82 @@
+"""The course file to start from: every setting with its default and what it means."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from autograder.course.settings import DEFAULT_POINTS, LATER_BONUS, LATER_POINTS, STAGES, Course
+from autograder.errors import UsageError
+
+_DEFAULT = Course()
+
+
+def _lines(points: dict[str, float], comment: str = "") -> str:
+    width = max(map(len, points))
+    return "\n".join(f"{comment}{name:<{width}} = {value:g}" for name, value in points.items())
+
+
+COURSE_TEMPLATE = f"""\
+# Settings of this course. Every command takes this file with --course; what is left out keeps its default.
+# The values below are the defaults. Numbers are plain numbers, texts stand in quotes.
+
+title = "{_DEFAULT.title}"    # name of the homework on reports
+
+[points]
+# Points of each stage; a stage's checks share them. The maximum is the sum over the stages in use.
+{_lines(dict(DEFAULT_POINTS))}
+# Not yet graded: listed in reports, and counted towards no maximum.
+{_lines(dict(LATER_POINTS))}
+# Bonus stages to come, beyond the maximum.
+{_lines(dict(LATER_BONUS))}
+
+[grading]
+# The stages that this course uses; they are always reported in this order.
+stages = [
+{chr(10).join(f'    "{stage}",' for stage in STAGES)}
+]
+# Share of a stage's points for a step that is wrong only because an earlier function is: 0 to 1.
+follow_through = {_DEFAULT.follow_through:g}
+# What a score may reach when bonus points are added.
+bonus_cap = {_DEFAULT.bonus_cap:g}
+# Drawn cases a stage. More find rarer mistakes and take longer.
+examples = {_DEFAULT.examples}
+# Seed of the draw, a whole number: the same seed gives the same cases and the same marks. Without this line
+# the command line decides (--seed), and 0 holds where it does not.
+# seed = 2026
+
+[limits]
+# CPU time that a check may take, in seconds. The wall clock gets three times, a submission four times as much.
+time = {_DEFAULT.time_limit:g}
+# Memory that a submission may take, in MiB.
+memory = {_DEFAULT.memory_mib}
+# What a submission may print, in MiB; it is thrown away.
+output = {_DEFAULT.output_mib}
+
+[feedback]
+# What a student is shown of a failed check:
+#   "full"   the smallest case that fails, with the value that was expected, and a hint
+#   "hint"   the hint only
+#   "score"  marks only
+policy = "{_DEFAULT.feedback}"
+
+[confinement]
+# The least confinement under which this course is graded; `autograder doctor` says what this machine gives.
+#   "full"     system call filter and Landlock
+#   "seccomp"  system call filter
+#   "none"     time-outs only; grade only code that you trust
+minimum = "{_DEFAULT.min_confinement}"
+"""
+
+
+def write_course(path: Path) -> None:
+    """Write the course file to start from; raises UsageError where something is there already."""
+    try:
+        with path.open("x", encoding="utf-8", newline="\n") as file:
+            file.write(COURSE_TEMPLATE)
+    except FileExistsError:
+        raise UsageError(f"{path} is there already and was not changed; give another name or remove it.") from None
+    except FileNotFoundError:
+        raise UsageError(f"{path} cannot be written: its folder does not exist; create it first.") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise UsageError(f"{path} cannot be written ({reason}); give a path that you may write to.") from None
