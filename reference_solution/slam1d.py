@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:  # only for readers and type checkers: this module runs without it
-    from assignment.posegraph import PoseGraph
+    from assignment.posegraph import PoseGraph, Ranging
 
 
 def residual(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
@@ -164,3 +164,102 @@ def gauss_newton_step(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     J = jacobian(x, graph)
     H, b = normal_equations(J, information_matrix(graph), f)
     return np.linalg.solve(H, -b)
+
+
+def sparsity_pattern(graph: PoseGraph) -> tuple[np.ndarray, np.ndarray]:
+    """Mark where J and H can differ from 0, from the list of factors alone.
+
+    A factor's row of J has an entry for each pose that the factor touches. Two poses share an
+    entry of H when one factor touches both; every pose that any factor touches has its diagonal
+    entry. No measurement, variance or state is needed.
+
+    Parameters
+    ----------
+    graph : PoseGraph
+        The problem; its n poses, k edges and p priors.
+
+    Returns
+    -------
+    J_mask : (m, n) bool array
+        True where J has an entry; the rows in the order of f.
+    H_mask : (n, n) bool array
+        True where H has an entry.
+
+    Examples
+    --------
+    >>> from posegraph import PoseGraph
+    >>> graph = PoseGraph(3, [(0, 1), (1, 2)], [1.5, 1.0], [0.04, 0.04], [0], [3.0], [0.001])
+    >>> J_mask, H_mask = sparsity_pattern(graph)
+    >>> J_mask.astype(int)
+    array([[1, 1, 0],
+           [0, 1, 1],
+           [1, 0, 0]])
+    >>> H_mask.astype(int)
+    array([[1, 1, 0],
+           [1, 1, 1],
+           [0, 1, 1]])
+    """
+    J_mask = np.zeros((graph.n_factors, graph.n_poses), dtype=bool)
+    H_mask = np.zeros((graph.n_poses, graph.n_poses), dtype=bool)
+    factors = [*graph.edges.tolist(), *([k] for k in graph.priors.tolist())]
+    for row, touched in enumerate(factors):
+        J_mask[row, touched] = True
+        H_mask[np.ix_(touched, touched)] = True
+    return J_mask, H_mask
+
+
+def range_residual(x: np.ndarray, ranging: Ranging) -> np.ndarray:
+    """Compare distances to a beacon beside the line with the measured ranges.
+
+    Pose x_k stands at (x_k, 0) and the beacon at (b0, b1). A row is the distance between them,
+    by Pythagoras, minus the measured range.
+
+    Parameters
+    ----------
+    x : (n,) float array
+        Positions of the poses [m].
+    ranging : Ranging
+        The beacon, and the pose and range of each of q measurements.
+
+    Returns
+    -------
+    (q,) float array
+        f [m]; the measurements in the given order.
+
+    Examples
+    --------
+    >>> from posegraph import Ranging
+    >>> range_residual(np.array([0.0, 6.0]), Ranging([3.0, 4.0], [1, 0], [4.5, 5.0], [0.01, 0.01]))
+    array([0.5, 0. ])
+    """
+    distance = np.hypot(x[ranging.poses] - ranging.beacon[0], ranging.beacon[1])
+    f: np.ndarray = distance - ranging.ranges
+    return f
+
+
+def range_jacobian(x: np.ndarray, ranging: Ranging) -> np.ndarray:
+    """Differentiate the range residual: J[r, c] = df_r / dx_c. It depends on x.
+
+    Parameters
+    ----------
+    x : (n,) float array
+        Positions of the poses [m], where the derivative is taken.
+    ranging : Ranging
+        The beacon, and the pose and range of each of q measurements.
+
+    Returns
+    -------
+    (q, n) float array
+        J [no unit]; the rows in the order of f, a column for every pose.
+
+    Examples
+    --------
+    >>> from posegraph import Ranging
+    >>> range_jacobian(np.array([0.0, 6.0]), Ranging([3.0, 4.0], [1, 0], [4.5, 5.0], [0.01, 0.01]))
+    array([[ 0. ,  0.6],
+           [-0.6,  0. ]])
+    """
+    ahead = x[ranging.poses] - ranging.beacon[0]
+    J = np.zeros((len(ranging.poses), len(x)))
+    J[np.arange(len(ranging.poses)), ranging.poses] = ahead / np.hypot(ahead, ranging.beacon[1])
+    return J
