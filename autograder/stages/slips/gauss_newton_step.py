@@ -4,7 +4,7 @@ Merged, because they are the same numbers: H1 followed by a right solution (S1);
 with b taken at x = 0 (both H18); H17 solved by pseudo-inverse or least squares (S17). T3, the in-place `x += dx`,
 returns the right dx: it is remarked on as a changed input.
 """
-# ruff: noqa: ARG001, D401 - a slip has the stage's signature, used or not, and its docstring states what is wrong
+# ruff: noqa: D401 - the docstring of a slip states what is wrong
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from autograder.stages.slips.catalogue import Catalogue
+from autograder.stages.slips.steps_without_equations import WITHOUT_EQUATIONS
 from reference_solution import slam1d as right
 
 if TYPE_CHECKING:
@@ -120,32 +121,8 @@ def step_damped(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
 
     Damping is for problems that are not linear or not determined; here it only keeps the step from arriving.
     """
-    J, f = right.jacobian(x, graph), right.residual(x, graph)
-    H, b = right.normal_equations(J, right.information_matrix(graph), f)
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph))
     return np.linalg.solve(H + 1e-3 * np.eye(graph.n_poses), -b)
-
-
-@slip()
-def gradient_descent_step(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The step goes down the gradient by a fixed rate and does not use H.
-
-    The gradient knows the direction but not the distance; which matrix knows how the cost bends?
-    """
-    J, f = right.jacobian(x, graph), right.residual(x, graph)
-    _, b = right.normal_equations(J, right.information_matrix(graph), f)
-    return -1e-3 * b
-
-
-@slip()
-def each_pose_corrected_alone(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """Every pose is corrected by the diagonal of H alone.
-
-    When one pose moves, its neighbours have to follow: the entries beside the diagonal say by how much.
-    """
-    J, f = right.jacobian(x, graph), right.residual(x, graph)
-    H, b = right.normal_equations(J, right.information_matrix(graph), f)
-    step: np.ndarray = -b / np.diag(H)
-    return step
 
 
 @slip()
@@ -154,8 +131,7 @@ def H_inverted_entry_by_entry(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
 
     The inverse of a matrix is not the matrix of inverses; which system of equations has the step as its solution?
     """
-    J, f = right.jacobian(x, graph), right.residual(x, graph)
-    H, b = right.normal_equations(J, right.information_matrix(graph), f)
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph))
     with np.errstate(divide="ignore", invalid="ignore"):
         step: np.ndarray = (1.0 / H) @ -b
     return step
@@ -196,8 +172,7 @@ def pose_0_held_at_its_start(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
 
     That treats the start of pose 0 as certain; it is a guess like the others, and only the prior says how good.
     """
-    J, f = right.jacobian(x, graph), right.residual(x, graph)
-    H, b = right.normal_equations(J, right.information_matrix(graph), f)
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph))
     return np.concatenate([[0.0], np.linalg.solve(H[1:, 1:], -b[1:])])
 
 
@@ -247,37 +222,13 @@ def loops_left_out(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return step
 
 
-@slip("S20")
-def drift_spread_evenly(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The gap of the last edge is spread evenly over the poses between its ends.
-
-    That is right only where all variances are equal, nothing else is out of place and there is one loop.
-    """
-    i, j = graph.edges[-1]
-    gap = x[i] + graph.measurements[-1] - x[j]
-    way = np.clip((np.arange(graph.n_poses) - i) / (j - i), 0.0, 1.0)
-    step: np.ndarray = gap * way * abs(j - i) / (abs(j - i) + 1)
-    step -= step[0]
-    return step
-
-
-@slip("S21")
-def step_of_worked_example(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The step is the printed one of the worked example.
-
-    Those five numbers hold for one graph from one start; solve the equations of the graph that you are given.
-    """
-    return np.array([0.0, -0.1, -0.2, -0.3, -0.4])
-
-
 @slip("S24")
 def step_in_single_precision(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The equations are solved in single precision.
 
     Half of the digits are gone, and an uneven H loses more; what type do your arrays have?
     """
-    J, f = right.jacobian(x, graph), right.residual(x, graph)
-    H, b = right.normal_equations(J, right.information_matrix(graph), f)
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph))
     return np.linalg.solve(H.astype(np.float32), -b.astype(np.float32))
 
 
@@ -305,32 +256,4 @@ def odometry_taken_from_state(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return np.linalg.solve(H, -b)
 
 
-@slip()
-def step_is_zero(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The step is zero.
-
-    It is zero at the minimum only; does the state that you were given fit all measurements as well as it can?
-    """
-    return np.zeros(graph.n_poses)
-
-
-@slip()
-def step_to_the_origin(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The step leads to the origin.
-
-    The measurements do not matter to this step; which of them should pull it where?
-    """
-    return -x
-
-
-@slip()
-def step_to_dead_reckoning(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The step leads back to dead reckoning.
-
-    Dead reckoning is where the search may start: it has not heard the loop closures. Which state fits all factors best?
-    """
-    step: np.ndarray = graph.dead_reckoning() - x
-    return step
-
-
-SLIPS = slip.entries
+SLIPS = (*slip.entries, *WITHOUT_EQUATIONS)

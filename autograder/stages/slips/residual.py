@@ -49,9 +49,7 @@ def last_edge_residual_spans_whole_chain(x: np.ndarray, graph: PoseGraph) -> np.
     Edges come in any order and there may be no loop or several; only the pair of poses says what an edge joins.
     """
     f = right.residual(x, graph)
-    k = len(graph.edges)
-    if k:
-        f[k - 1] = x[0] + graph.measurements[-1] - x[-1]
+    f[: len(graph.edges)][-1:] = x[0] + graph.measurements[-1:] - x[-1]
     return f
 
 
@@ -61,11 +59,9 @@ def loop_residual_takes_last_measurement(x: np.ndarray, graph: PoseGraph) -> np.
 
     Edges come in any order, and there may be two loops; each row has a measurement of its own.
     """
-    f = right.residual(x, graph)
-    for row, (i, j) in enumerate(graph.edges):
-        if abs(j - i) > 1:
-            f[row] = x[i] + graph.measurements[-1] - x[j]
-    return f
+    i, j = graph.edges.T
+    used = np.where(np.abs(j - i) > 1, graph.measurements[-1:], graph.measurements)
+    return np.concatenate([x[i] + used - x[j], x[graph.priors] - graph.prior_means])
 
 
 @slip("R4")
@@ -193,8 +189,7 @@ def residual_whitened(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
 
     That is the whitened residual, a good thing elsewhere; here f is in metres and the weights live in Omega alone.
     """
-    sigma = np.sqrt(np.concatenate([graph.edge_variances, graph.prior_variances]))
-    f: np.ndarray = right.residual(x, graph) / sigma
+    f: np.ndarray = right.residual(x, graph) / np.sqrt(np.concatenate([graph.edge_variances, graph.prior_variances]))
     return f
 
 
@@ -250,8 +245,7 @@ def residual_rows_odometry_first(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     Row r of f, J and Omega must speak of the same factor; the common order is that of the graph.
     """
     f = right.residual(x, graph)
-    loop = np.abs(np.diff(graph.edges, axis=1)).ravel() > 1
-    order = np.argsort(loop, kind="stable")
+    order = np.argsort(np.abs(np.diff(graph.edges, axis=1)).ravel() > 1, kind="stable")
     return np.concatenate([f[order], f[len(order) :]])
 
 
@@ -279,10 +273,7 @@ def second_prior_residual_takes_first_mean(x: np.ndarray, graph: PoseGraph) -> n
 
     There may be several priors, and each brings its own belief.
     """
-    f = right.residual(x, graph)
-    for row, pose in enumerate(graph.priors, len(graph.edges)):
-        f[row] = x[pose] - graph.prior_means[0]
-    return f
+    return np.concatenate([right.residual(x, graph)[: len(graph.edges)], x[graph.priors] - graph.prior_means[0]])
 
 
 @slip("R22")
@@ -303,10 +294,7 @@ def residual_of_six_rows(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
 
     How many factors a graph has is a property of the graph; ask it.
     """
-    f = np.zeros(6)
-    rows = min(6, graph.n_factors)
-    f[:rows] = right.residual(x, graph)[:rows]
-    return f
+    return np.pad(right.residual(x, graph), (0, 6))[:6]
 
 
 SLIPS = slip.entries
