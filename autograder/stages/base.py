@@ -127,8 +127,12 @@ class Stage(ABC):
     def prepare(self, cases: Sequence[Case]) -> Any:
         """Work out once, for all submissions, what the verdict on these cases needs."""
 
+    def follow_up(self, prepared: Any, answers: Answers) -> list[Case] | None:
+        """Return a second round of calls that depends on the first answers, where the stage asks one."""
+        return None
+
     @abstractmethod
-    def judge(self, prepared: Any, answers: Answers) -> NDArray[np.bool_]:
+    def judge(self, prepared: Any, answers: Answers, again: Answers | None = None) -> NDArray[np.bool_]:
         """Say for each case whether the answers are right."""
 
     @abstractmethod
@@ -166,7 +170,7 @@ class ArrayStage(Stage):
             parts=self.parts,
         )
 
-    def judge(self, prepared: Batch, answers: Answers) -> NDArray[np.bool_]:
+    def judge(self, prepared: Batch, answers: Answers, again: Answers | None = None) -> NDArray[np.bool_]:
         """Compare every entry with its tolerance; a call is right if all its entries are."""
         got, usable = aligned(prepared, answers)
         with np.errstate(invalid="ignore"):  # inf - inf is nan, and nan is never within tolerance

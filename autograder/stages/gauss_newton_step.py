@@ -90,7 +90,7 @@ class GaussNewtonStep(Stage):
             ),
         )
 
-    def judge(self, prepared: Systems, answers: Answers) -> NDArray[np.bool_]:
+    def judge(self, prepared: Systems, answers: Answers, again: Answers | None = None) -> NDArray[np.bool_]:
         """Compare every backward error with the bound."""
         dx, usable = aligned(prepared.steps, answers)
         return usable & (backward_errors(prepared, dx) <= BACKWARD_ERROR)

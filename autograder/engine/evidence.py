@@ -1,0 +1,165 @@
+"""What a failed check shows: the reason in words, the case that shows it, and remarks on style."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from assignment.posegraph import PoseGraph
+from autograder.engine.collect import Reply
+from autograder.engine.plan import Task
+from autograder.sandbox.frames import Kind, Outcome
+from autograder.sandbox.host import Outputs
+from autograder.stages.base import Array, fits
+
+MAX_SHOWN_POSES = 10  # a larger counterexample is described in words only
+
+_ARGUMENTS = {
+    "normal_equations": ("J", "omega", "f"),
+    "information_matrix": ("graph",),
+}
+_PARTS = {"normal_equations": ("H", "b")}
+
+_REMARKS = {
+    Kind.LIST: "returns a list; a numpy array is expected, and the list was converted.",
+    Kind.MATRIX: "returns np.matrix; a plain array is expected, and the matrix was converted.",
+    Kind.INTEGER_ARRAY: "returns integers; real numbers are expected, and they were converted.",
+    Kind.BOOL_ARRAY: "returns truth values; real numbers are expected, and they were converted.",
+    Kind.FLOAT32_ARRAY: "returns numbers of reduced precision; float64 is expected.",
+}
+
+
+def first_calls(task: Task) -> NDArray[np.int64]:
+    """Return for each case the number of its first call in the batch."""
+    counts = np.array([len(task.stage.calls(case)) for case in task.cases])
+    return np.cumsum(counts) - counts
+
+
+def why(task: Task, index: int, reply: Reply) -> tuple[Outcome, str]:
+    """Say why a case failed: what the call did, or what is wrong with its numbers."""
+    outputs = reply.outputs
+    assert isinstance(outputs, Outputs)
+    function = task.stage.function
+    first = int(first_calls(task)[index])
+    calls = task.stage.calls(task.cases[index])
+    for call in range(first, first + len(calls)):
+        outcome = Outcome(int(outputs.outcome[call]))
+        if outcome is not Outcome.OK:
+            return outcome, _odd(function, outcome, outputs.reasons.get(call, ""))
+    got, expected = _arrays(task, index, reply), [array for call in calls for array in task.stage.expected(*call)]
+    names = _PARTS.get(function, ("",)) * len(got)
+    for name, array, wanted in zip(names, got, expected, strict=False):
+        what = f"{name} of {function}" if name else function
+        if not fits(array.shape, wanted.shape):
+            return Outcome.BAD_VALUE, f"{what} returned shape {array.shape}, expected {wanted.shape}."
+        if not np.isfinite(array).all():
+            return Outcome.BAD_VALUE, f"{what} returned {_not_finite(array)}, expected finite numbers."
+    return Outcome.OK, task.stage.explain(task.cases[index], tuple(got))
+
+
+def _odd(function: str, outcome: Outcome, reason: str) -> str:
+    if outcome is Outcome.UNFINISHED:
+        return f"{function} is unfinished: it raises NotImplementedError."
+    if outcome is Outcome.FORBIDDEN:
+        return f"{function} uses the module {reason}, which is not allowed here; numpy is."
+    if outcome is Outcome.MEMORY:
+        return f"{function} needs more memory than it is given."
+    if outcome is Outcome.RAISED:
+        return f"{function} raised {reason or 'an exception'}."
+    return f"{function} returned {reason or 'no numbers'}; expected an array of real numbers."
+
+
+def _not_finite(array: Array) -> str:
+    return "nan" if np.isnan(array).any() else "inf"
+
+
+def _arrays(task: Task, index: int, reply: Reply) -> list[Array]:
+    """Return the arrays of one case with the shapes in which they came; the second round last."""
+    outputs, again = reply.outputs, reply.again
+    assert isinstance(outputs, Outputs)
+    parts = task.stage.parts
+    first = int(first_calls(task)[index]) * parts
+    last = first + len(task.stage.calls(task.cases[index])) * parts
+    found = [_array(outputs, number) for number in range(first, last)]
+    if isinstance(again, Outputs):
+        found.append(_array(again, index))
+    return found
+
+
+def _array(outputs: Outputs, number: int) -> Array:
+    values = outputs.data[outputs.offsets[number] : outputs.offsets[number + 1]]
+    shape = outputs.shapes[number]
+    return values.reshape(shape) if values.size == np.prod(shape, dtype=np.int64) else np.full(shape[:0], np.nan)
+
+
+def counterexample(task: Task, index: int, reply: Reply) -> dict[str, Any] | None:
+    """Write a failing case as plain data: the arguments of its first call, what came, what was expected."""
+    call = task.stage.calls(task.cases[index])[0]
+    if any(max(_extent(argument)) > MAX_SHOWN_POSES for argument in call):
+        return None
+    function = task.stage.function
+    outputs = reply.outputs
+    assert isinstance(outputs, Outputs)
+    first = int(first_calls(task)[index])
+    names = _ARGUMENTS.get(function, ("x", "graph"))
+    example: dict[str, Any] = {"function": function}
+    example.update((name, _json(argument)) for name, argument in zip(names, call, strict=True))
+    expected = [_json(array) for array in task.stage.expected(*call)]
+    example["expected"] = expected[0] if len(expected) == 1 else expected
+    outcome = Outcome(int(outputs.outcome[first]))
+    if outcome is Outcome.OK:
+        got = [_json(array) for array in _arrays(task, index, reply)[: task.stage.parts]]
+        example["got"] = got[0] if len(got) == 1 else got
+    else:
+        example["got"] = _came(outcome, outputs.reasons.get(first, ""))
+    return example
+
+
+def _came(outcome: Outcome, reason: str) -> str:
+    words = {Outcome.RAISED: f"raised {reason}", Outcome.UNFINISHED: "raised NotImplementedError"}
+    words[Outcome.FORBIDDEN] = f"used the module {reason}"
+    words[Outcome.MEMORY] = "needed too much memory"
+    return words.get(outcome, reason)
+
+
+def _extent(argument: Any) -> tuple[int, ...]:
+    if isinstance(argument, PoseGraph):
+        return argument.n_poses, argument.n_factors
+    return tuple(argument.shape) or (0,)
+
+
+def _json(argument: Any) -> Any:
+    if isinstance(argument, PoseGraph):
+        return {
+            "n_poses": argument.n_poses,
+            "edges": argument.edges.tolist(),
+            "measurements": argument.measurements.tolist(),
+            "edge_variances": argument.edge_variances.tolist(),
+            "priors": argument.priors.tolist(),
+            "prior_means": argument.prior_means.tolist(),
+            "prior_variances": argument.prior_variances.tolist(),
+        }
+    # Strict JSON has no nan and no inf, and -0. would only puzzle.
+    array = np.asarray(argument, dtype=np.float64)
+    if np.isfinite(array).all():
+        return (array + 0.0).tolist()
+    return np.where(np.isfinite(array), array, np.nan).astype(object).tolist() if array.ndim else str(array)
+
+
+def remarks(tasks: tuple[Task, ...], replies: Mapping[int, Reply]) -> tuple[str, ...]:
+    """Remark on style, at no cost: lists, columns, np.matrix, integers, arguments changed in place."""
+    found: dict[str, None] = {}
+    for task in tasks:
+        outputs = replies[task.batch].outputs
+        if not isinstance(outputs, Outputs):
+            continue
+        function = task.stage.function
+        for kind, words in _REMARKS.items():
+            if (outputs.kinds == kind).any():
+                found[f"{function} {words}"] = None
+        if outputs.mutated >= 0:
+            found[f"{function} changes its argument in place; work on a copy."] = None
+    return tuple(found)

@@ -1,0 +1,276 @@
+"""Grade a class: draw the exam once, reuse what is already graded, run the rest, store each result at once."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+import autograder
+from autograder.course import Course
+from autograder.engine.corpus import Corpus, draw_corpus
+from autograder.engine.local import Pool, default_workers
+from autograder.engine.store import RunRecord, Store, code_digest, fingerprint, versions
+from autograder.engine.worker import Graded, Orders, Trouble
+from autograder.errors import SandboxError
+from autograder.intake.submission import Submission
+from autograder.sandbox.frames import Source
+from autograder.stages.catalogue import all_stages
+from autograder.verdicts import Result, StageVerdict
+
+LEVELS = ("none", "seccomp", "full")
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the command line sets for one run; see `autograder grade --help`."""
+
+    seed: int = 0
+    examples: int = 200
+    workers: int | None = None
+    time_limit: float = 2.0
+    fresh: bool = False
+    feedback: Literal["full", "hint", "score"] = "full"
+    min_confinement: Literal["full", "seccomp", "none"] = "seccomp"
+    allow_unconfined: bool = False
+
+
+@dataclass(frozen=True)
+class Progress:
+    """One submission has its result: `done` of `total`; `reused` of them were graded before."""
+
+    done: int
+    total: int
+    reused: int
+    submission: str
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a run ends with: a result for every submission that was reached, and its record."""
+
+    results: tuple[Result, ...]
+    record: RunRecord
+    interrupted: bool
+
+
+def grade(
+    submissions: Sequence[Submission],
+    course: Course,
+    settings: Settings,
+    out: Path,
+    on_progress: Callable[[Progress], None] = lambda _: None,
+) -> Run:
+    """Grade all submissions into a folder.
+
+    Parameters
+    ----------
+    submissions : sequence of Submission
+        What intake found; ids are unique.
+    course : Course
+        Points and limits.
+    settings : Settings
+        What holds for this run only.
+    out : Path
+        The output folder; results that it already holds from the same work are reused.
+    on_progress : callable
+        Called after every result.
+
+    Returns
+    -------
+    Run
+        All results, sorted by submission; `interrupted` after Ctrl-C, with what is done so far.
+
+    Raises
+    ------
+    SandboxError
+        Where the confinement is weaker than demanded.
+    UsageError
+        Where the output folder cannot be written.
+    """
+    return _Grading(submissions, course, settings, Store(out), on_progress).run()
+
+
+class _Grading:
+    """The state of one run."""
+
+    def __init__(
+        self,
+        submissions: Sequence[Submission],
+        course: Course,
+        settings: Settings,
+        store: Store,
+        on_progress: Callable[[Progress], None],
+    ) -> None:
+        self.began = time.perf_counter()
+        self.submissions = sorted(submissions, key=lambda one: one.id)
+        self.course, self.settings, self.store, self.on_progress = course, settings, store, on_progress
+        self.stages = [stage for stage in all_stages() if stage.name in course.stages]
+        self.points = {stage.name: course.points[stage.name] for stage in self.stages}
+        self.results: dict[str, Result] = {}
+        self.reused = 0
+        self.level = ""
+        self.corpus: Corpus = draw_corpus(self.stages, settings.seed, settings.examples)
+
+    def run(self) -> Run:
+        """Do everything; an interruption keeps what is done."""
+        interrupted = False
+        try:
+            with Pool(self._orders(), self.settings.workers or default_workers()) as pool:
+                assert pool.confinement is not None  # entering the pool waits for it
+                self.level = pool.confinement.level
+                self._require_level(pool.confinement.detail)
+                late = self._first_pass(pool)
+                self._confirm(pool, late)
+        except KeyboardInterrupt:
+            interrupted = True
+        record = self._record(interrupted)
+        self.store.save_record(record)
+        return Run(tuple(self.results[name] for name in sorted(self.results)), record, interrupted)
+
+    def _orders(self) -> bytes:
+        return msgspec.msgpack.encode(
+            Orders(
+                corpus=self.corpus.data,
+                stages=tuple(stage.name for stage in self.stages),
+                points=self.points,
+                time_limit=self.settings.time_limit,
+                memory_mib=self.course.memory_mib,
+                output_mib=self.course.output_mib,
+                allow_unconfined=self.settings.allow_unconfined,
+            )
+        )
+
+    def _require_level(self, detail: str) -> None:
+        demanded = "none" if self.settings.allow_unconfined else self.settings.min_confinement
+        if LEVELS.index(self.level) < LEVELS.index(demanded):
+            raise SandboxError(
+                f"This machine confines at level {self.level} ({detail}), and {demanded} is demanded; "
+                "`autograder doctor` says what is missing."
+            )
+
+    def _first_pass(self, pool: Pool) -> list[int]:
+        """Grade everything that has no result yet; return those that ran out of time."""
+        jobs: list[tuple[int, Source]] = []
+        for index, submission in enumerate(self.submissions):
+            known = None if self.settings.fresh else self.store.load(submission.id, self._fingerprint(submission))
+            if known is not None:
+                self.reused += 1
+                self._keep(known)
+            elif submission.source is None:
+                self._finish(self._rejected(submission))
+            else:
+                jobs.append((index, submission.source))
+        late: list[int] = []
+
+        def done(index: int, answer: Graded | Trouble) -> None:
+            if isinstance(answer, Graded) and answer.ran_out:
+                late.append(index)
+            else:
+                self._finish(self._result(self.submissions[index], answer))
+
+        pool.run(jobs, done)
+        return sorted(late)
+
+    def _confirm(self, pool: Pool, late: list[int]) -> None:
+        """Run those that ran out of time once more, each alone on the machine; that verdict stands."""
+        for index in late:
+            submission = self.submissions[index]
+            assert submission.source is not None  # it ran
+            pool.run([(index, submission.source)], lambda i, answer: self._finish(self._result(self.submissions[i], answer)))
+
+    def _result(self, submission: Submission, answer: Graded | Trouble) -> Result:
+        if isinstance(answer, Trouble):
+            return self._base(submission, status="grader_error", message=answer.message, score=None, seconds=0.0)
+        bonus = sum(stage.score for stage in answer.stages if stage.bonus)
+        score = sum(stage.score for stage in answer.stages if not stage.bonus) + bonus
+        return self._base(
+            submission,
+            status="graded",
+            message="",
+            score=round(min(score, max(self.course.bonus_cap, self.max_score)), 6),
+            seconds=answer.seconds,
+            bonus=bonus,
+            stages=(*answer.stages, *self._not_yet_graded()),
+            notes=(*submission.notes, *answer.notes),
+        )
+
+    def _rejected(self, submission: Submission) -> Result:
+        return self._base(submission, status="rejected", message=submission.rejection, score=0.0, seconds=0.0)
+
+    def _base(self, submission: Submission, **fields: object) -> Result:
+        return msgspec.convert(
+            {
+                "submission": submission.id,
+                "max_score": self.max_score,
+                "confinement": self.level,
+                "seed": self.settings.seed,
+                "grader_version": autograder.__version__,
+                "fingerprint": self._fingerprint(submission),
+                **fields,
+            },
+            Result,
+            from_attributes=True,
+        )
+
+    @property
+    def max_score(self) -> float:
+        """Points without the bonus stages."""
+        return sum(self.points[stage.name] for stage in self.stages if not stage.bonus)
+
+    def _not_yet_graded(self) -> list[StageVerdict]:
+        known = {stage.name for stage in all_stages()}
+        return [
+            StageVerdict(name=name, status="not_graded", score=0.0, max_score=0.0, message="Not yet graded.")
+            for name in self.course.stages
+            if name not in known
+        ]
+
+    def _finish(self, result: Result) -> None:
+        self.store.save(result)
+        self._keep(result)
+
+    def _keep(self, result: Result) -> None:
+        self.results[result.submission] = result
+        self.on_progress(Progress(len(self.results), len(self.submissions), self.reused, result.submission))
+
+    def _fingerprint(self, submission: Submission) -> str:
+        """Identify the work: the exam, the rules, the grader and the upload."""
+        rules = {"points": self.points, "course": asdict(self.course), "time_limit": self.settings.time_limit}
+        return fingerprint(
+            [
+                code_digest(),
+                *(f"{name}={value}" for name, value in versions().items()),
+                self.corpus.digest,
+                msgspec.json.encode(rules, order="deterministic").decode(),
+                self.level,
+                submission.id,
+                submission.digest,
+                submission.rejection,
+            ]
+        )
+
+    def _record(self, interrupted: bool) -> RunRecord:
+        return RunRecord(
+            seed=self.settings.seed,
+            examples=self.settings.examples,
+            corpus=self.corpus.digest,
+            confinement=self.level,
+            versions=versions(),
+            settings={
+                "time_limit": self.settings.time_limit,
+                "memory_mib": self.course.memory_mib,
+                "output_mib": self.course.output_mib,
+                "points": self.points,
+                "feedback": self.settings.feedback,
+            },
+            submissions=len(self.submissions),
+            graded_now=len(self.results) - self.reused,
+            reused=self.reused,
+            interrupted=interrupted,
+            seconds=round(time.perf_counter() - self.began, 3),
+        )

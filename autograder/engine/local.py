@@ -1,0 +1,153 @@
+"""Worker processes on this machine: every core busy, none trusted to live."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections import deque
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection, wait
+from typing import Any
+
+import msgspec
+
+from autograder.engine import worker
+from autograder.engine.worker import Graded, Ready, Trouble
+from autograder.errors import SandboxError
+from autograder.sandbox.frames import Source
+
+MAX_LOSSES = 2  # a submission whose worker is lost so often is given up
+MAX_FRAME = 64 * 1024 * 1024
+
+
+@dataclass
+class _Worker:
+    process: Any
+    connection: Connection
+    job: int | None = None
+    ready: bool = False
+
+
+@dataclass
+class Pool:
+    """A pool of worker processes.
+
+    Parameters
+    ----------
+    orders : bytes
+        What every worker is told once.
+    size : int
+        How many workers.
+
+    Attributes
+    ----------
+    confinement : Ready or None
+        The level that the first worker reported.
+    """
+
+    orders: bytes
+    size: int
+    confinement: Ready | None = None
+    _workers: list[_Worker] = field(default_factory=list)
+
+    def __enter__(self) -> Pool:
+        """Start one worker and wait for it: a machine without locks is noticed before anything is graded."""
+        try:
+            self._workers.append(self._start())
+            while self.confinement is None:
+                self._receive(self._workers[0])
+        except BaseException:
+            self.close()
+            raise
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End all workers."""
+        for each in self._workers:
+            each.connection.close()
+        for each in self._workers:
+            each.process.join(timeout=0.5)
+            if each.process.is_alive():
+                each.process.kill()
+                each.process.join()
+        self._workers.clear()
+
+    def run(self, jobs: Iterable[tuple[int, Source]], done: Callable[[int, Graded | Trouble], None]) -> None:
+        """Run all jobs, at most one a worker at a time; call `done` as each ends, in any order."""
+        waiting = deque(jobs)
+        sources = dict(waiting)
+        losses: dict[int, int] = {}
+        while len(self._workers) < min(self.size, len(waiting)):
+            self._workers.append(self._start())
+        unfinished = len(waiting)
+        while unfinished:
+            for each in self._workers:
+                if each.ready and each.job is None and waiting:
+                    self._give(each, *waiting.popleft())
+            for connection in wait([each.connection for each in self._workers]):
+                each = next(one for one in self._workers if one.connection is connection)
+                job = each.job
+                try:
+                    answer = self._receive(each)
+                except (EOFError, OSError):
+                    self._workers[self._workers.index(each)] = self._replace(each)
+                    if job is None:
+                        continue
+                    losses[job] = losses.get(job, 0) + 1
+                    if losses[job] < MAX_LOSSES:
+                        waiting.appendleft((job, sources[job]))
+                        continue
+                    answer = Trouble("The worker process was lost twice while this submission ran.")
+                if answer is not None and job is not None:
+                    done(job, answer)
+                    unfinished -= 1
+
+    def _start(self) -> _Worker:
+        context = multiprocessing.get_context("spawn")  # a fresh interpreter: nothing of the client is inherited
+        ours, theirs = context.Pipe()
+        process = context.Process(target=worker.main, args=(theirs, self.orders), daemon=True)
+        process.start()
+        theirs.close()
+        return _Worker(process, ours)
+
+    def _replace(self, lost: _Worker) -> _Worker:
+        if not lost.ready:
+            raise SandboxError("A worker process ended before it was ready; `autograder doctor` may say why.")
+        lost.connection.close()
+        lost.process.join()
+        return self._start()
+
+    def _give(self, each: _Worker, job: int, source: Source) -> None:
+        each.job = job
+        try:
+            each.connection.send_bytes(msgspec.msgpack.encode(source))
+        except (BrokenPipeError, ConnectionResetError):
+            pass  # the loss is noticed when its connection is read
+
+    def _receive(self, each: _Worker) -> Graded | Trouble | None:
+        message = worker.decode_message(each.connection.recv_bytes(MAX_FRAME))
+        if isinstance(message, Trouble) and message.fatal:
+            raise SandboxError(message.message)
+        if isinstance(message, Ready):
+            each.ready = True
+            self.confinement = self.confinement or message
+            return None
+        each.job = None
+        return message
+
+
+def default_workers() -> int:
+    """Return the number of processors that this process may use.
+
+    Examples
+    --------
+    >>> default_workers() >= 1
+    True
+    """
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

@@ -1,0 +1,113 @@
+"""The plan of a run: which calls are made for which check, built once for all submissions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from assignment.posegraph import PoseGraph
+from autograder.engine.corpus import Corpus
+from autograder.problems.cases import Case
+from autograder.problems.ladders import Rung
+from autograder.sandbox import frames
+from autograder.stages.base import Stage
+
+SLACK = 16  # numbers that an answer may hold beyond twice the expected ones before only its shape is reported
+
+
+@dataclass(frozen=True)
+class Task:
+    """One check of one stage: its cases, its share of the points, and the batch of calls that it needs.
+
+    `batch` is the number of the batch in the inputs of the sandbox.
+    """
+
+    stage: Stage
+    rung: Rung
+    cases: tuple[Case, ...]
+    batch: int
+
+    @property
+    def share(self) -> float:
+        """Share of the stage's points."""
+        return self.stage.shares[self.rung.name]
+
+    @cached_property
+    def prepared(self) -> Any:
+        """What the verdict needs, worked out at the first use."""
+        return self.stage.prepare(self.cases)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All tasks of a run, in order, and the inputs of the sandbox as bytes."""
+
+    tasks: tuple[Task, ...]
+    points: Mapping[str, float]
+    corpus: Corpus
+    inputs: bytes
+    objects: Mapping[PoseGraph, int] = field(repr=False)
+
+    @cached_property
+    def stages(self) -> tuple[tuple[Stage, tuple[Task, ...]], ...]:
+        """The tasks, grouped by stage."""
+        grouped: dict[str, list[Task]] = {}
+        for task in self.tasks:
+            grouped.setdefault(task.stage.name, []).append(task)
+        return tuple((tasks[0].stage, tuple(tasks)) for tasks in grouped.values())
+
+    def batch(self, stage: Stage, calls: Sequence[Case]) -> frames.Batch:
+        """Make a batch of calls that can be sent as it is; graphs of the corpus go by number."""
+        return _batch(stage, calls, self.objects)
+
+
+def make_plan(stages: Sequence[Stage], points: Mapping[str, float], corpus: Corpus) -> Plan:
+    """Lay out every call of a run."""
+    tasks, batches = [], []
+    objects: dict[PoseGraph, int] = {}
+    for stage in stages:
+        for rung in stage.ladder.rungs:
+            cases = corpus.cases[stage.ladder.name][rung.name]
+            calls = [call for case in cases for call in stage.calls(case)]
+            for call in calls:
+                for argument in call:
+                    if isinstance(argument, PoseGraph):
+                        objects.setdefault(argument, len(objects))
+            tasks.append(Task(stage, rung, cases, len(batches)))
+            batches.append(_batch(stage, calls, objects))
+    inputs = frames.encode_inputs(frames.Inputs(objects=[graph_data(graph) for graph in objects], batches=batches))
+    return Plan(tuple(tasks), points, corpus, inputs, objects)
+
+
+def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[PoseGraph, int]) -> frames.Batch:
+    largest = max((array.size for call in calls for array in stage.expected(*call)), default=0)
+    return frames.Batch(
+        function=stage.function,
+        parts=stage.parts,
+        max_elements=2 * largest + SLACK,
+        cases=[[_argument(argument, objects) for argument in call] for call in calls],
+    )
+
+
+def _argument(argument: Any, objects: Mapping[PoseGraph, int]) -> frames.Argument:
+    if isinstance(argument, PoseGraph):
+        known = objects.get(argument)
+        return graph_data(argument) if known is None else known
+    return frames.Array(argument.shape, np.asarray(argument, dtype="<f8").tobytes())
+
+
+def graph_data(graph: PoseGraph) -> frames.GraphData:
+    """Turn a graph into bytes for the sandbox."""
+    return frames.GraphData(
+        n_poses=graph.n_poses,
+        edges=graph.edges.astype("<i8").tobytes(),
+        measurements=graph.measurements.astype("<f8").tobytes(),
+        edge_variances=graph.edge_variances.astype("<f8").tobytes(),
+        priors=graph.priors.astype("<i8").tobytes(),
+        prior_means=graph.prior_means.astype("<f8").tobytes(),
+        prior_variances=graph.prior_variances.astype("<f8").tobytes(),
+    )

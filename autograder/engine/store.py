@@ -1,0 +1,127 @@
+"""The results on disk: one JSON file a submission, written whole or not at all."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import sys
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+
+import msgspec
+import numpy as np
+
+import autograder
+from autograder.errors import UsageError
+from autograder.verdicts import Result, decode, encode
+
+
+class RunRecord(msgspec.Struct, frozen=True, kw_only=True):
+    """What run.json holds: everything that another run needs to be the same, and how long this one took."""
+
+    seed: int
+    examples: int
+    corpus: str
+    confinement: str
+    versions: dict[str, str]
+    settings: dict[str, object]
+    submissions: int
+    graded_now: int
+    reused: int
+    interrupted: bool
+    seconds: float
+
+
+class Store:
+    """The folder OUT of a run.
+
+    Parameters
+    ----------
+    out : Path
+        Created if it does not exist.
+
+    Raises
+    ------
+    UsageError
+        Where the folder cannot be written.
+    """
+
+    def __init__(self, out: Path) -> None:
+        self.out = out
+        self.results = out / "results"
+        try:
+            self.results.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise UsageError(
+                f"{out} cannot be used as output folder ({error.strerror}); choose another with -o."
+            ) from None
+
+    def load(self, submission: str, fingerprint: str) -> Result | None:
+        """Return the stored result if it is whole, from the same work, and not a fault of ours."""
+        result = self.read(submission)
+        if result is None or result.fingerprint != fingerprint or result.status == "grader_error":
+            return None
+        return result
+
+    def read(self, submission: str) -> Result | None:
+        """Return the stored result whatever work it is from; None where there is none that can be read."""
+        try:
+            result = decode((self.results / f"{submission}.json").read_bytes())
+        except (OSError, msgspec.MsgspecError):
+            return None
+        return result if result.submission == submission else None
+
+    def save(self, result: Result) -> None:
+        """Write one result."""
+        write_whole(self.results / f"{result.submission}.json", encode(result))
+
+    def save_record(self, record: RunRecord) -> None:
+        """Write run.json."""
+        write_whole(self.out / "run.json", msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n")
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Write a file so that a reader sees the old bytes or the new ones, never a part.
+
+    Raises
+    ------
+    UsageError
+        Where the disk is full or the folder cannot be written; the old file is still there.
+    """
+    draft = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        draft.write_bytes(data)
+        draft.replace(path)
+    except OSError as error:
+        draft.unlink(missing_ok=True)
+        raise UsageError(f"{path} could not be written ({error.strerror}); what was there before is kept.") from None
+
+
+@cache
+def code_digest() -> str:
+    """Return a digest of the grader's own code, so that results of another grader are noticed."""
+    root = Path(autograder.__file__).parent.parent
+    digest = hashlib.sha256()
+    files = [root / "assignment/posegraph.py", root / "reference_solution/slam1d.py"]
+    files += sorted(path for path in (root / "autograder").rglob("*.py") if "specimens" not in path.parts)
+    for path in files:
+        digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def versions() -> dict[str, str]:
+    """Return the versions that results may depend on."""
+    return {
+        "autograder": autograder.__version__,
+        "code": code_digest()[:16],
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "platform": f"{sys.platform} {platform.machine()}",
+    }
+
+
+def fingerprint(parts: Iterable[str]) -> str:
+    """Identify the work that led to a result: the same parts, the same bytes."""
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()
