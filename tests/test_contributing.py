@@ -92,22 +92,27 @@ def test_adding_a_stage(copy: Path) -> None:
 
 
 def test_adding_a_slip(copy: Path) -> None:
-    """The slip is found with its name and its hint, and is wrong on a case."""
+    """The slip is found with its name and its hint, is wrong on a case, and is told apart from all others."""
     follow("Add a slip", copy)
     found = ask(
         copy,
         """
         import numpy
         from autograder.stages.catalogue import slips, stage
-        slip = next(slip for slip in slips("residual") if slip.identifier == "prior_row_left_at_zero")
+        slip = next(slip for slip in slips("residual") if slip.identifier == "residual_halved")
         cases = [case for rung in stage("residual").ladder.rungs for case in rung.core]
         wrong = [not numpy.allclose(slip.function(*case), stage("residual").expected(*case)[0]) for case in cases]
-        print(json.dumps([slip.name, slip.hint, any(wrong)]))
+        alike = [
+            other.identifier for other in slips("residual") if all(
+                numpy.array_equal(slip.function(*case), other.function(*case)) for case in cases
+            )
+        ]
+        print(json.dumps([slip.name, slip.hint, any(wrong), alike]))
         """,
     )
-    assert found[0] == "The rows of the priors are 0."
-    assert found[1].startswith("A prior is a measurement too")
-    assert found[2]
+    assert found[0] == "Every row of f is half of what it should be."
+    assert found[1].startswith("Some texts have a factor 1/2")
+    assert found[2:] == [True, ["residual_halved"]]
 
 
 def test_adding_a_family(copy: Path) -> None:
