@@ -23,7 +23,7 @@ slip = Catalogue()
 
 
 @slip("H15")
-def prior_weight_one_in_H(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+def prior_weight_one_in_h(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The prior enters H with the weight 1 instead of its own.
 
     Adding 1 to the diagonal makes H invertible, but b speaks of the prior with another certainty; both must agree.
@@ -126,7 +126,7 @@ def step_damped(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
 
 
 @slip()
-def H_inverted_entry_by_entry(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+def h_inverted_entry_by_entry(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """H is inverted entry by entry.
 
     The inverse of a matrix is not the matrix of inverses; which system of equations has the step as its solution?

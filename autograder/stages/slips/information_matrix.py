@@ -247,7 +247,7 @@ def weights_fill_the_matrix(graph: PoseGraph) -> np.ndarray:
 def information_with_a_row_for_every_pose(graph: PoseGraph) -> np.ndarray:
     """Omega has a row for every pose.
 
-    It weighs measurements, not poses: count the rows of f. (How certain the poses are is told by H.)
+    It weighs measurements, not poses: count the rows of f. How certain the poses are is told by H.
     """
     return right.information_matrix(graph)[: graph.n_poses, : graph.n_poses]
 

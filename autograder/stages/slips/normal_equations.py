@@ -36,7 +36,7 @@ def weights_missing_in_b(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pai
 
 
 @slip("H3", minimum_poses=1)
-def weights_missing_in_H(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
+def weights_missing_in_h(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """H is formed without the weights.
 
     H says how firmly the poses are held; can a loose measurement hold as firmly as a tight one?
@@ -54,7 +54,7 @@ def weights_missing_in_both(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> 
 
 
 @slip("H5", minimum_poses=1)
-def first_weight_for_all_in_H(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
+def first_weight_for_all_in_h(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """H gives every factor the first weight.
 
     The diagonal of Omega need not be constant, so no single number can be pulled out in front of the product.
@@ -120,7 +120,7 @@ def b_doubled(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
 
 
 @slip(minimum_poses=1)
-def H_doubled(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
+def h_doubled(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """H is the whole Hessian of the cost, twice what it should be.
 
     With b as the handout has it, a doubled H halves the step; the 2 must be kept in both or dropped from both.
@@ -164,7 +164,7 @@ def normal_equations_of_worked_example(J: np.ndarray, omega: np.ndarray, f: np.n
 
 
 @slip("H11", minimum_poses=1)
-def H_assigned_instead_of_added(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
+def h_assigned_instead_of_added(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """Where several factors share an entry of H, the last one overwrites the others.
 
     Every factor brings its own certainty to the poses that it touches; what do two certainties about one pose do?
@@ -202,7 +202,7 @@ def off_diagonal_signs_flipped(J: np.ndarray, omega: np.ndarray, f: np.ndarray) 
 
 
 @slip()  # the same as H13 where J is that of a graph, but not for any J
-def signs_dropped_in_H(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
+def signs_dropped_in_h(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """H is formed from J without its signs.
 
     Products of entries with different signs are negative, and H needs them: they let the poses move together.
@@ -212,7 +212,7 @@ def signs_dropped_in_H(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
 
 
 @slip()
-def only_diagonal_of_H(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
+def only_diagonal_of_h(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """H holds its diagonal only.
 
     The entries beside the diagonal tie two poses together; without them each pose is corrected as if it were alone.
@@ -222,7 +222,7 @@ def only_diagonal_of_H(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
 
 
 @slip()
-def only_upper_triangle_of_H(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
+def only_upper_triangle_of_h(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """H is filled above its diagonal only.
 
     If pose i tells something about pose j, then pose j tells as much about pose i: what does that say about H?
@@ -251,7 +251,7 @@ def last_row_left_out(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
 
 
 @slip(minimum_poses=1)
-def H_regularised(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
+def h_regularised(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """A small number is added to the diagonal of H.
 
     That helps where H is singular, but changes the question where it is not; why is it not singular here?

@@ -1,0 +1,206 @@
+"""What every stage holds: right answers pass everywhere, wrong ones fail, points add up."""
+
+import numpy as np
+import pytest
+
+from autograder.problems.draw import draw_ladder
+from autograder.stages.catalogue import all_stages
+from reference_solution import slam1d
+from tests.stages.answering import verdicts
+
+STAGES = {stage.name: stage for stage in all_stages()}
+GRAPH_STAGES = ["residual", "jacobian", "information_matrix", "gauss_newton_step"]
+
+
+@pytest.fixture(scope="module")
+def cases():
+    ladders = {stage.ladder.name: stage.ladder for stage in all_stages()}
+    return {name: draw_ladder(ladder, 0, 60) for name, ladder in ladders.items()}
+
+
+def rungs(cases, stage):
+    return cases[stage.ladder.name].items()
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_the_reference_is_right_everywhere(cases, name):
+    """The reference passes every case of every check."""
+    stage = STAGES[name]
+    for _, found in rungs(cases, stage):
+        assert verdicts(stage, found, getattr(slam1d, stage.function)).all()
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_shares_add_up(name):
+    """Every rung of the ladder has a share of the points, and the shares add up to 1."""
+    stage = STAGES[name]
+    assert set(stage.shares) == {rung.name for rung in stage.ladder.rungs}
+    assert sum(stage.shares.values()) == pytest.approx(1.0)
+    assert min(stage.shares.values()) > 0
+
+
+def noisy(function, size):
+    def changed(*arguments):
+        value = function(*arguments)
+        if isinstance(value, tuple):
+            return tuple(part * (1 + size) for part in value)
+        return value * (1 + size)
+
+    return changed
+
+
+@pytest.mark.parametrize("name", [*GRAPH_STAGES, "normal_equations"])
+def test_rounding_noise_passes_and_a_thousandth_fails(cases, name):
+    """Errors of 1e-13 are forgiven on every case; of 1e-3 on no check."""
+    stage = STAGES[name]
+    right = getattr(slam1d, stage.function)
+    for rung, found in rungs(cases, stage):
+        assert verdicts(stage, found, noisy(right, 1e-13)).all()
+        assert not verdicts(stage, found, noisy(right, 1e-3)).all(), rung
+
+
+def rounded(function, digits):
+    def changed(*arguments):
+        value = function(*arguments)
+        return tuple(np.round(part, digits) for part in value) if isinstance(value, tuple) else np.round(value, digits)
+
+    return changed
+
+
+@pytest.mark.parametrize("name", ["residual", "normal_equations", "gauss_newton_step"])
+def test_rounding_to_four_decimals_fails(cases, name):
+    """Four decimals are not enough: the real-valued check is lost."""
+    stage = STAGES[name]
+    found = cases[stage.ladder.name]["dense" if name == "normal_equations" else "real_valued"]
+    assert not verdicts(stage, found, rounded(getattr(slam1d, stage.function), 4)).any()
+
+
+def central_differences(x, graph):
+    h = 1e-6
+    columns = [
+        (slam1d.residual(x + h * unit, graph) - slam1d.residual(x - h * unit, graph)) / (2 * h)
+        for unit in np.eye(graph.n_poses)
+    ]
+    return np.array(columns).T
+
+
+def test_central_differences_pass(cases):
+    """J by central differences with h = 1e-6 passes, and so does a step that is built on it."""
+
+    def step(x, graph):
+        J = central_differences(x, graph)
+        H, b = slam1d.normal_equations(J, slam1d.information_matrix(graph), slam1d.residual(x, graph))
+        return np.linalg.solve(H, -b)
+
+    for name, function in (("jacobian", central_differences), ("gauss_newton_step", step), ("second_step", step)):
+        for _, found in rungs(cases, STAGES[name]):
+            assert verdicts(STAGES[name], found, function).all()
+
+
+@pytest.mark.parametrize("name", ["residual", "gauss_newton_step"])
+@pytest.mark.parametrize("shape", [(-1, 1), (1, -1)])
+def test_a_column_or_a_row_stands_for_a_vector(cases, name, shape):
+    """(m, 1) and (1, m) are read as (m,)."""
+    stage = STAGES[name]
+    for _, found in rungs(cases, stage):
+        assert verdicts(stage, found, lambda x, graph: getattr(slam1d, stage.function)(x, graph).reshape(shape)).all()
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("name", STAGES)
+def test_no_number_is_no_answer(cases, name, value):
+    """nan and inf pass no case."""
+    stage = STAGES[name]
+    right = getattr(slam1d, stage.function)
+
+    def broken(*arguments):
+        answer = right(*arguments)
+        return tuple(np.full_like(a, value) for a in answer) if stage.parts > 1 else np.full_like(answer, value)
+
+    for _, found in rungs(cases, stage):
+        assert not verdicts(stage, found, broken).any()
+
+
+def test_a_scalar_or_a_broadcastable_shape_is_not_enough(cases):
+    """Nothing is broadcast: a zero for a matrix of zeros and ones is a wrong shape."""
+    stage = STAGES["jacobian"]
+    for _, found in rungs(cases, stage):
+        assert not verdicts(stage, found, lambda x, graph: np.zeros(())).any()
+        assert not verdicts(stage, found, lambda x, graph: slam1d.jacobian(x, graph)[:1]).any()
+
+
+def test_the_step_at_the_minimum_may_carry_noise(cases):
+    """From the minimum itself, a step of rounding size is right, and one of 1e-6 is not."""
+    stage = STAGES["gauss_newton_step"]
+    found = [(x + slam1d.gauss_newton_step(x, graph), graph) for case in rungs(cases, stage) for x, graph in case[1]]
+    assert verdicts(stage, found, lambda x, graph: np.zeros(graph.n_poses)).all()
+    assert verdicts(stage, found, slam1d.gauss_newton_step).all()
+    assert not verdicts(stage, found, lambda x, graph: np.full(graph.n_poses, 1e-6)).all()
+
+
+class Stateful:
+    """Right at the first call for a graph, zero at every later one."""
+
+    def __init__(self):
+        self.seen = set()
+
+    def __call__(self, x, graph):
+        if graph in self.seen:
+            return np.zeros(graph.n_poses)
+        self.seen.add(graph)
+        return slam1d.gauss_newton_step(x, graph)
+
+
+def damped(x, graph):
+    J = slam1d.jacobian(x, graph)
+    H, b = slam1d.normal_equations(J, slam1d.information_matrix(graph), slam1d.residual(x, graph))
+    return np.linalg.solve(H + 1e-3 * np.eye(len(H)), -b)
+
+
+FORGERIES = {
+    "constant zero": lambda x, graph: np.zeros(graph.n_poses),
+    "minus x": lambda x, graph: -x,
+    "constant target": lambda x, graph: np.arange(graph.n_poses) - x,
+    "dead reckoning minus x": lambda x, graph: graph.dead_reckoning() - x,
+    "half a step": lambda x, graph: 0.5 * slam1d.gauss_newton_step(x, graph),
+    "Levenberg damping": damped,
+    "constant step": lambda x, graph: np.ones(graph.n_poses),
+    "sign flipped": lambda x, graph: -slam1d.gauss_newton_step(x, graph),
+}
+
+
+@pytest.mark.parametrize("name", FORGERIES)
+def test_forged_steps_earn_nothing(cases, name):
+    """No loop accepts a step that is zero, damped, constant or blind to the measurements."""
+    for _, found in rungs(cases, STAGES["second_step"]):
+        assert not verdicts(STAGES["second_step"], found, FORGERIES[name]).any()
+
+
+def test_a_stateful_step_earns_nothing(cases):
+    """A step that is right once and zero afterwards fails every loop."""
+    for _, found in rungs(cases, STAGES["second_step"]):
+        assert not verdicts(STAGES["second_step"], found, Stateful()).any()
+
+
+def test_a_consistently_weighted_wrong_step_passes_the_second_step_only(cases):
+    """Unweighted least squares is linear too: the second step is zero, the step itself is wrong."""
+
+    def unweighted(x, graph):
+        return np.linalg.lstsq(slam1d.jacobian(x, graph), -slam1d.residual(x, graph), rcond=None)[0]
+
+    for _, found in rungs(cases, STAGES["second_step"]):
+        assert verdicts(STAGES["second_step"], found, unweighted).all()
+    single = cases["graphs"]["single_loops"]
+    assert not verdicts(STAGES["gauss_newton_step"], single, unweighted).all()
+
+
+@pytest.mark.parametrize("name", STAGES)
+def test_the_explanation_of_a_wrong_answer_names_what_came(cases, name):
+    """`explain` gives one sentence on a wrong answer of the right shape."""
+    stage = STAGES[name]
+    for _, found in rungs(cases, stage):
+        case = found[0]
+        got = tuple(array + 1.0 for call in stage.calls(case) for array in stage.expected(*call))
+        words = stage.explain(case, got)
+        assert words.endswith(".")
+        assert len(words) < 400
