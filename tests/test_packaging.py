@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -113,3 +114,35 @@ def test_the_wheel_is_imported_from_where_it_is_installed(installed: Path, tmp_p
     places = _run(installed / "python", "-c", code, cwd=tmp_path).stdout.split()
     assert all(Path(place).is_relative_to(installed.parent) for place in places)
     assert len(places) == len(PACKAGES)
+
+
+DIGEST = """
+from autograder.engine.corpus import draw_corpus
+from autograder.stages.catalogue import all_stages
+print(draw_corpus(all_stages(), seed=7, examples=40).digest)
+"""
+
+
+@pytest.mark.slow
+def test_checkout_and_wheel_draw_the_same_corpus(installed: Path, tmp_path: Path) -> None:
+    """The cases of a run depend on the seed only, not on where the code lies or what stands beside it."""
+    here = _run(sys.executable, "-c", DIGEST, cwd=ROOT, home=tmp_path).stdout
+    there = _run(installed / "python", "-c", DIGEST, cwd=tmp_path).stdout
+    assert len(here.strip()) == 64
+    assert not list(tmp_path.iterdir())
+    assert there == here
+
+
+@pytest.mark.slow
+def test_the_demo_runs_outside_the_checkout(installed: Path, tmp_path: Path) -> None:
+    """`autograder demo` grades its class from the wheel alone, in an empty home, and what it says it wrote is there."""
+    (tmp_path / "home").mkdir()
+    said = _run(installed / "autograder", "demo", cwd=tmp_path, home=tmp_path / "home").stdout
+    named = [tmp_path / word for word in re.findall(r"^ +(slam1d-demo/\S+)", said, flags=re.MULTILINE)]
+    assert named
+    assert all(path.exists() for path in named), named
+    results = list((tmp_path / "slam1d-demo" / "results").glob("*.json"))
+    rows = (tmp_path / "slam1d-demo" / "grades.csv").read_text(encoding="utf-8").splitlines()
+    assert len(results) == len(rows) - 1 >= 14
+    assert not list((tmp_path / "home").iterdir())
+    assert {path.name for path in tmp_path.iterdir()} == {"home", "slam1d-demo"}
