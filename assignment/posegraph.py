@@ -103,9 +103,7 @@ class PoseGraph:
         loops = np.flatnonzero(self.edges[:, 0] == self.edges[:, 1])
         if loops.size:
             row = int(loops[0])
-            raise ValueError(
-                f"edges must join two different poses, got {tuple(self.edges[row].tolist())} in row {row}"
-            )
+            raise ValueError(f"edges must join two different poses, got {tuple(self.edges[row].tolist())} in row {row}")
         _require_positive("edge_variances", self.edge_variances)
         _require_positive("prior_variances", self.prior_variances)
 
@@ -161,9 +159,7 @@ class PoseGraph:
 
     def __repr__(self) -> str:
         k, p = len(self.edges), len(self.priors)
-        lines = [
-            f"PoseGraph with {self.n_poses} poses, {k} edge{'s' * (k != 1)} and {p} prior{'s' * (p != 1)}"
-        ]
+        lines = [f"PoseGraph with {self.n_poses} poses, {k} edge{'s' * (k != 1)} and {p} prior{'s' * (p != 1)}"]
         for row, ((i, j), u, v) in enumerate(
             zip(self.edges.tolist(), self.measurements.tolist(), self.edge_variances.tolist())
         ):

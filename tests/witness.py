@@ -1,4 +1,4 @@
-"""An independent witness: the formulas of the handout in exact rational arithmetic, sharing no code with the product."""
+"""An independent witness: the formulas of the handout in exact rational arithmetic; no code of the product."""
 
 from fractions import Fraction
 

@@ -37,7 +37,7 @@ class Corpus:
 
 def draw_corpus(stages: Sequence[Stage], seed: int, examples: int) -> Corpus:
     """Draw the cases of all ladders that the stages climb. Only the client of a run calls this."""
-    from autograder.problems.draw import draw_ladder  # needs hypothesis, which a worker never loads
+    from autograder.problems.draw import draw_ladder  # noqa: PLC0415 - needs hypothesis, which a worker never loads
 
     ladders: dict[str, Ladder] = {stage.ladder.name: stage.ladder for stage in stages}
     return _corpus({name: draw_ladder(ladder, seed, examples) for name, ladder in sorted(ladders.items())})

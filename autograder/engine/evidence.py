@@ -35,7 +35,7 @@ _REMARKS = {
 def first_calls(task: Task) -> NDArray[np.int64]:
     """Return for each case the number of its first call in the batch."""
     counts = np.array([len(task.stage.calls(case)) for case in task.cases])
-    return np.cumsum(counts) - counts
+    return np.asarray(np.cumsum(counts) - counts)
 
 
 def why(task: Task, index: int, reply: Reply) -> tuple[Outcome, str]:
@@ -142,11 +142,14 @@ def _json(argument: Any) -> Any:
             "prior_means": argument.prior_means.tolist(),
             "prior_variances": argument.prior_variances.tolist(),
         }
-    # Strict JSON has no nan and no inf, and -0. would only puzzle.
-    array = np.asarray(argument, dtype=np.float64)
-    if np.isfinite(array).all():
-        return (array + 0.0).tolist()
-    return np.where(np.isfinite(array), array, np.nan).astype(object).tolist() if array.ndim else str(array)
+    return _strict((np.asarray(argument, dtype=np.float64) + 0.0).tolist())
+
+
+def _strict(value: Any) -> Any:
+    """Replace nan and inf, which JSON does not have, by their names."""
+    if isinstance(value, list):
+        return [_strict(item) for item in value]
+    return value if np.isfinite(value) else str(value)
 
 
 def remarks(tasks: tuple[Task, ...], replies: Mapping[int, Reply]) -> tuple[str, ...]:
@@ -160,6 +163,14 @@ def remarks(tasks: tuple[Task, ...], replies: Mapping[int, Reply]) -> tuple[str,
         for kind, words in _REMARKS.items():
             if (outputs.kinds == kind).any():
                 found[f"{function} {words}"] = None
+        wanted = task.stage.layout(task.prepared).shapes
+        if outputs.shapes != wanted and any(
+            shape != want and len(want) == 1 and fits(shape, want)
+            for shape, want in zip(outputs.shapes, wanted, strict=True)
+        ):
+            found[
+                f"{function} returns a column or a row; a vector, shape (m,), is expected, and it was read as one."
+            ] = None
         if outputs.mutated >= 0:
             found[f"{function} changes its argument in place; work on a copy."] = None
     return tuple(found)

@@ -181,7 +181,9 @@ class _Grading:
         for index in late:
             submission = self.submissions[index]
             assert submission.source is not None  # it ran
-            pool.run([(index, submission.source)], lambda i, answer: self._finish(self._result(self.submissions[i], answer)))
+            pool.run(
+                [(index, submission.source)], lambda i, answer: self._finish(self._result(self.submissions[i], answer))
+            )
 
     def _result(self, submission: Submission, answer: Graded | Trouble) -> Result:
         if isinstance(answer, Trouble):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing
 import os
 from collections import deque
@@ -123,10 +124,8 @@ class Pool:
 
     def _give(self, each: _Worker, job: int, source: Source) -> None:
         each.job = job
-        try:
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # noticed when its connection is read
             each.connection.send_bytes(msgspec.msgpack.encode(source))
-        except (BrokenPipeError, ConnectionResetError):
-            pass  # the loss is noticed when its connection is read
 
     def _receive(self, each: _Worker) -> Graded | Trouble | None:
         message = worker.decode_message(each.connection.recv_bytes(MAX_FRAME))

@@ -67,7 +67,8 @@ class Plan:
 
 def make_plan(stages: Sequence[Stage], points: Mapping[str, float], corpus: Corpus) -> Plan:
     """Lay out every call of a run."""
-    tasks, batches = [], []
+    tasks: list[Task] = []
+    batches: list[frames.Batch] = []
     objects: dict[PoseGraph, int] = {}
     for stage in stages:
         for rung in stage.ladder.rungs:

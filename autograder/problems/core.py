@@ -35,12 +35,12 @@ def graph(
     priors = [(0, 0.0, 0.001)] if priors is None else priors
     return PoseGraph(
         n_poses,
-        [row[:2] for row in edges],
-        [row[2] for row in edges],
-        [row[3] for row in edges],
-        [row[0] for row in priors],
-        [row[1] for row in priors],
-        [row[2] for row in priors],
+        np.array([row[:2] for row in edges]),
+        np.array([row[2] for row in edges]),
+        np.array([row[3] for row in edges]),
+        np.array([row[0] for row in priors]),
+        np.array([row[1] for row in priors]),
+        np.array([row[2] for row in priors]),
     )
 
 
@@ -49,9 +49,7 @@ def _state(*x: float) -> np.ndarray:
 
 
 _E = worked_example()
-_V = graph(
-    5, [(0, 1, 1.1, 0.01), (1, 2, 1.0, 0.02), (2, 3, 1.1, 0.05), (3, 4, -2.7, 0.04), (0, 4, 0.0, 0.02)]
-)
+_V = graph(5, [(0, 1, 1.1, 0.01), (1, 2, 1.0, 0.02), (2, 3, 1.1, 0.05), (3, 4, -2.7, 0.04), (0, 4, 0.0, 0.02)])
 _Z = graph(5, [(0, 1, 1.1, 0.01), (1, 2, 1.0, 0.01), (2, 3, 1.1, 0.04), (3, 4, -2.7, 0.01), (0, 4, 0.3, 0.01)])
 _N = graph(3, [(0, 1, 1.0, 0.01), (1, 2, 2.0, 0.02), (0, 2, 2.0, 0.04)])
 _TWICE = graph(2, [(0, 1, 1.0, 0.04), (0, 1, 2.0, 0.01)])
@@ -61,7 +59,14 @@ _I = graph(
 )
 _L = graph(
     5,
-    [(0, 1, 1.1, 0.01), (1, 2, 1.0, 0.02), (2, 3, 1.1, 0.04), (3, 4, -2.7, 0.01), (0, 3, 3.0, 0.02), (1, 4, -0.5, 0.05)],
+    [
+        (0, 1, 1.1, 0.01),
+        (1, 2, 1.0, 0.02),
+        (2, 3, 1.1, 0.04),
+        (3, 4, -2.7, 0.01),
+        (0, 3, 3.0, 0.02),
+        (1, 4, -0.5, 0.05),
+    ],
 )
 _B = graph(5, [(0, 1, 1.1, 0.01), (1, 2, 1.0, 0.02), (3, 2, -1.1, 0.04), (3, 4, -2.7, 0.01), (4, 0, 0.2, 0.02)])
 _O = graph(4, [(0, 3, 2.0, 0.02), (0, 1, 1.0, 0.01), (1, 2, 2.0, 0.04), (2, 3, -2.0, 0.05)])
@@ -87,10 +92,10 @@ def _real(n_poses: int, edges: list[tuple[int, int]], priors: list[int], salt: f
     k, p = len(edges), len(priors)
     made = PoseGraph(
         n_poses,
-        edges,
+        np.array(edges),
         4.0 * jitter(k, salt),
         0.01 * 4.0 ** (2.0 * jitter(k, salt + 0.3)),
-        priors,
+        np.array(priors),
         6.0 * jitter(p, salt + 0.7),
         0.02 * 4.0 ** (2.0 * jitter(p, salt + 0.1)),
     )
@@ -166,7 +171,9 @@ WHOLE_NUMBERS: tuple[Case, ...] = (
     _system(np.array([[1, 2], [0, 1]]), np.array([3, 7]), np.array([1, -2])),
     _system(np.array([[2, 0], [1, -1], [0, 3]]), np.array([3, 11, 7]), np.array([2, 1, -1])),
     _system(np.array([[1, -2, 0], [0, 1, 3], [4, 0, 1]]), np.array([7, 3, 13]), np.array([1, 0, -3])),
-    _system(np.array([[1, 1, 2], [3, 0, -1], [0, 2, 1], [1, -1, 0]]), np.array([3, 7, 11, 13]), np.array([1, 2, -1, 4])),
+    _system(
+        np.array([[1, 1, 2], [3, 0, -1], [0, 2, 1], [1, -1, 0]]), np.array([3, 7, 11, 13]), np.array([1, 2, -1, 4])
+    ),
 )
 UNEQUAL_WEIGHTS: tuple[Case, ...] = (
     _system(np.array([[1, -1], [2, 1], [0, 1]]), np.array([300, 0.7, 3]), np.array([1, -3, 2])),

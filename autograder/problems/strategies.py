@@ -51,15 +51,15 @@ def _measured(
 ) -> PoseGraph:
     k, p = len(pairs), len(priors)
     first_is_origin = priors == [0]
-    return PoseGraph(
-        n_poses,
-        pairs,
-        draw(_several(displacements, k)),
-        draw(_several(st.sampled_from(variances), k)),
-        priors,
-        [0.0] if first_is_origin else draw(_several(displacements, p)),
-        draw(_several(st.sampled_from((0.001, *variances)), p)),
-    )
+    measurements = _numbers(draw, displacements, k)
+    edge_variances = _numbers(draw, st.sampled_from(variances), k)
+    means = np.zeros(1) if first_is_origin else _numbers(draw, displacements, p)
+    prior_variances = _numbers(draw, st.sampled_from((0.001, *variances)), p)
+    return PoseGraph(n_poses, np.array(pairs), measurements, edge_variances, np.array(priors), means, prior_variances)
+
+
+def _numbers(draw: DrawFn, elements: SearchStrategy[float], count: int) -> np.ndarray:
+    return np.array(draw(_several(elements, count)))
 
 
 @st.composite

@@ -127,6 +127,10 @@ class Stage(ABC):
     def prepare(self, cases: Sequence[Case]) -> Any:
         """Work out once, for all submissions, what the verdict on these cases needs."""
 
+    @abstractmethod
+    def layout(self, prepared: Any) -> Batch:
+        """Return the shapes that the first round of calls should return."""
+
     def follow_up(self, prepared: Any, answers: Answers) -> list[Case] | None:
         """Return a second round of calls that depends on the first answers, where the stage asks one."""
         return None
@@ -169,6 +173,10 @@ class ArrayStage(Stage):
             tolerance=np.concatenate([tolerance.ravel() for tolerance in allowed]),
             parts=self.parts,
         )
+
+    def layout(self, prepared: Batch) -> Batch:
+        """Return the expected answers themselves."""
+        return prepared
 
     def judge(self, prepared: Batch, answers: Answers, again: Answers | None = None) -> NDArray[np.bool_]:
         """Compare every entry with its tolerance; a call is right if all its entries are."""

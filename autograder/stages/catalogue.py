@@ -19,7 +19,9 @@ def all_stages() -> tuple[Stage, ...]:
     >>> [stage.name for stage in all_stages()][:3]
     ['residual', 'jacobian', 'information_matrix']
     """
-    modules = (importlib.import_module(f"{package.__name__}.{found.name}") for found in pkgutil.iter_modules(package.__path__))
+    modules = (
+        importlib.import_module(f"{package.__name__}.{found.name}") for found in pkgutil.iter_modules(package.__path__)
+    )
     found = (getattr(module, "STAGE", None) for module in modules)
     return tuple(sorted((stage for stage in found if stage is not None), key=lambda stage: stage.position))
 

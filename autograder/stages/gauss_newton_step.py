@@ -90,6 +90,10 @@ class GaussNewtonStep(Stage):
             ),
         )
 
+    def layout(self, prepared: Systems) -> Batch:
+        """Return the shapes of the steps."""
+        return prepared.steps
+
     def judge(self, prepared: Systems, answers: Answers, again: Answers | None = None) -> NDArray[np.bool_]:
         """Compare every backward error with the bound."""
         dx, usable = aligned(prepared.steps, answers)

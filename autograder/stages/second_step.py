@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assignment.posegraph import PoseGraph
-from autograder.problems.ladders import LOOPS
 from autograder.problems.cases import Case
 from autograder.problems.graphs import information, loop_edges, with_measurement
+from autograder.problems.ladders import LOOPS
 from autograder.stages.base import Answers, Array, Batch, Stage, aligned
 from autograder.stages.wording import number, vector
 from reference_solution import slam1d
@@ -90,6 +90,10 @@ class SecondStep(Stage):
             again=_batch([case[0][0] for case in cases]),
             graphs=tuple(case[1] for case in cases),
         )
+
+    def layout(self, prepared: Loops) -> Batch:
+        """Return the shapes of the steps of the first round."""
+        return prepared.steps
 
     def follow_up(self, prepared: Loops, answers: Answers) -> list[Case] | None:
         """Return the second round: a call from x + dx(x) for every loop.

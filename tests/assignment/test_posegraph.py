@@ -21,6 +21,7 @@ FIELDS = {
 
 
 def build(**changes):
+    """Build a small valid graph with some fields changed."""
     return PoseGraph(**{**FIELDS, **changes})
 
 
@@ -113,7 +114,7 @@ def test_copies_and_pickles_are_equal():
 
 
 def test_rows_are_counted():
-    """m is edges plus priors; the repr has a line for each."""
+    """M is edges plus priors; the repr has a line for each."""
     graph = build()
     assert graph.n_factors == 3
     assert len(repr(graph).splitlines()) == 1 + 3

@@ -1,20 +1,26 @@
 """The drawn cases: enough, distinct, simplest first, inside the bounds, the same for the same seed."""
 
+import inspect
+import re
+
 import numpy as np
 import pytest
 
 from assignment.posegraph import PoseGraph
+from autograder.problems import strategies
 from autograder.problems.cases import key, simplicity
 from autograder.problems.draw import draw_ladder
 from autograder.problems.graphs import loop_edges, well_posed
 from autograder.problems.ladders import GRAPHS, LOOPS, MATRICES
 from autograder.problems.strategies import STRATEGIES
+from reference_solution import slam1d
 
 LADDERS = {ladder.name: ladder for ladder in (GRAPHS, MATRICES, LOOPS)}
 
 
 @pytest.fixture(scope="module")
 def drawn():
+    """All ladders with 200 drawn cases."""
     return {name: draw_ladder(ladder, 0, 200) for name, ladder in LADDERS.items()}
 
 
@@ -81,8 +87,6 @@ def test_the_ladder_of_graphs_is_rich(drawn):
 
 def test_no_case_gives_another_stage_away(drawn):
     """No J, Omega or f that `normal_equations` is given belongs to a graph of another stage."""
-    from reference_solution import slam1d
-
     given = {tuple(array.ravel()) for found in drawn["matrices"].values() for case in found for array in case}
     states = [case for found in drawn["graphs"].values() for case in found]
     states += [(x, graph) for found in drawn["loops"].values() for xs, graph in found for x in xs]
@@ -93,11 +97,6 @@ def test_no_case_gives_another_stage_away(drawn):
 
 def test_draws_do_not_depend_on_literals_of_local_modules():
     """Strategies draw integers within +-99 only, which Hypothesis never replaces by literals that it finds in code."""
-    import inspect
-    import re
-
-    from autograder.problems import strategies
-
     bounds = re.findall(r"st\.integers\(([^()]*)\)", inspect.getsource(strategies))
     assert bounds
     for text in bounds:

@@ -30,7 +30,7 @@ def test_start_is_dead_reckoning():
 
 
 def test_residual():
-    """f is zero but for the loop: (0, 0, 0, 0, -0.5, 0)."""
+    """F is zero but for the loop: (0, 0, 0, 0, -0.5, 0)."""
     np.testing.assert_allclose(slam1d.residual(START, GRAPH), [0, 0, 0, 0, -0.5, 0], atol=1e-15)
 
 
@@ -62,7 +62,7 @@ def test_normal_equations():
 
 
 def test_step_and_minimum():
-    """dx = (0, -.1, -.2, -.3, -.4) leads to (0, 1, 1.9, 2.9, .1)."""
+    """Dx = (0, -.1, -.2, -.3, -.4) leads to (0, 1, 1.9, 2.9, .1)."""
     step = slam1d.gauss_newton_step(START, GRAPH)
     np.testing.assert_allclose(step, STEP, atol=1e-14)
     np.testing.assert_allclose(START + step, [0, 1.0, 1.9, 2.9, 0.1], atol=1e-14)
