@@ -161,7 +161,7 @@ class Circulation:
         moved = [x1[j] - start[j] for (_, j), drop in zip(self.tree, drops, strict=False) if drop]
         if 0 in moved or len(set(moved)) < len(moved):
             return None
-        if not self._telling([start[j] - start[i] - u[row] for row, (i, j) in enumerate(edges)][len(self.tree) :]):
+        if not self._telling(u, x1, start):
             return None
         graph = ExactGraph(
             n_poses=size,
@@ -174,15 +174,23 @@ class Circulation:
         )
         return graph, tuple(Fraction(x, grain) for x in x1), tuple(Fraction(x, grain) for x in truth)
 
-    def _telling(self, mismatches: list[int]) -> bool:
-        """Whether the mismatches show wrong signs and rounding to one decimal.
+    def _telling(self, u: list[int], x1: list[int], start: list[int]) -> bool:
+        """Whether no known mistake can be right by accident.
 
         A residual without its sign shows where a row of f is negative, so where a mismatch is
-        positive; rounding to one decimal where a mismatch has two.
+        positive; rounding to one decimal, where a mismatch has two; a loop taken to span the whole
+        chain, where the chain has another length; a free shift of all poses, where they do not move
+        by 0 on average.
         """
+        spans = [start[j] - start[i] for i, j in self.loops]
+        mismatches = [span - z for span, z in zip(spans, u[len(self.tree) :], strict=True)]
+        if 0 in mismatches or max(mismatches) < 0 or sum(x1) == sum(start):
+            return False
         tenth = 10 ** (self.band.decimals - 1)
-        rounded = self.band.decimals > 1 and not any(value % tenth for value in mismatches)
-        return 0 not in mismatches and max(mismatches) > 0 and not rounded
+        if self.band.decimals > 1 and not any(mismatch % tenth for mismatch in mismatches):
+            return False
+        whole = (0, len(self.tree))
+        return all(span != start[-1] - start[0] for span, loop in zip(spans, self.loops, strict=True) if loop != whole)
 
 
 def rounds_of(tree: Pairs, loops: Pairs) -> list[list[tuple[int, int]]]:
