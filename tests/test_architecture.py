@@ -24,7 +24,7 @@ problems           -> posegraph, errors
 sandbox            -> errors
 intake             -> errors, sandbox
 stages             -> problems, reference_solution, verdicts, posegraph
-diagnosis          -> stages, verdicts
+diagnosis          -> stages, problems, verdicts
 render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, errors
 reports            -> verdicts, render.figure
@@ -40,7 +40,7 @@ TYPE_ONLY = {("reference_solution", "posegraph")}  # it must run as a submission
 
 # The grader's side of the sandbox; all its other modules run beside a student's code, in a process that has
 # nothing else of ours to import.
-GRADER_SIDE = {f"autograder.sandbox.{name}" for name in ("channel", "host", "outputs")}
+GRADER_SIDE = {f"autograder.sandbox.{name}" for name in ("channel", "host", "outputs", "server")}
 
 
 def table() -> dict[str, frozenset[str]]:
