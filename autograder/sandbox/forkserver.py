@@ -1,0 +1,151 @@
+"""The fork server: a fresh Python that loads numpy and the inputs once, and forks a child a submission.
+
+It runs no code of a submission and sees none. Over the control channel come messages of nine bytes,
+an operation and a number; a fork comes with two descriptors for the child.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import select
+import signal
+import socket
+import struct
+import sys
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .child import Child
+
+MESSAGE = struct.Struct("<cq")
+STATUS = struct.Struct("<qqq")  # wait status, CPU time in microseconds, largest memory in KiB
+FORK, KILL, WAIT = b"F", b"K", b"W"
+_PATIENCE = 500  # milliseconds between looks at whether the grader is still there
+_TOKEN = struct.calcsize("i")
+
+
+def serve(control: socket.socket, grader: int) -> None:
+    """Set up, report, and fork children until the grader goes away."""
+    from . import frames  # noqa: PLC0415  # numpy and msgspec are found only after the paths are set
+
+    try:
+        child, ready = _set_up(frames.decode(_receive(control), frames.Setup))
+    except Exception as error:  # noqa: BLE001  # whatever went wrong, the grader has to hear of it
+        control.sendall(frames.pack(frames.Ready("", "", 0, f"{type(error).__name__}: {error}")))
+        return
+    control.sendall(frames.pack(ready))
+    try:
+        _loop(control, grader, child)
+    except (BrokenPipeError, ConnectionResetError):
+        return
+
+
+def _set_up(setup: Any) -> tuple[Child, Any]:
+    from . import batches, frames, policy  # noqa: PLC0415  # as above
+    from .child import Child  # noqa: PLC0415  # as above
+    from .lockdown import Lock  # noqa: PLC0415  # as above
+
+    policy.preload()
+    posegraph = _load_posegraph(setup.posegraph)
+    inputs = frames.decode(setup.inputs, frames.Inputs)
+    objects = [batches.build_object(data, posegraph) for data in inputs.objects]
+    plans = [batches.prepare(batch, objects, posegraph) for batch in inputs.batches]
+    import numpy as np  # noqa: PLC0415  # as above
+
+    np.random.seed(0)
+    os.environ.clear()
+    sys.path.clear()
+    sys.path_importer_cache.clear()
+    lock = Lock(setup.memory_mib << 20, setup.cpu_seconds, frozenset(setup.without))
+    lock.prepare()
+    del inputs
+    gc.collect()
+    gc.freeze()
+    return Child(lock, objects, plans, posegraph), frames.Ready(lock.seccomp, lock.landlock, lock.abi, "")
+
+
+def _load_posegraph(path: str) -> Any:
+    from importlib.util import module_from_spec, spec_from_file_location  # noqa: PLC0415  # used once
+
+    spec = spec_from_file_location("posegraph", path)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{path} cannot be loaded")
+    module = module_from_spec(spec)
+    sys.modules["posegraph"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def _loop(control: socket.socket, grader: int, child: Child) -> None:
+    poll = select.poll()
+    poll.register(control, select.POLLIN)
+    dying: set[int] = set()
+    while True:
+        dying = {pid for pid in dying if os.waitpid(pid, os.WNOHANG)[0] == 0}
+        if not poll.poll(20 if dying else _PATIENCE):
+            if os.getppid() != grader:
+                return
+            continue
+        message, ancillary, _, _ = control.recvmsg(MESSAGE.size, socket.CMSG_LEN(2 * _TOKEN))
+        if len(message) < MESSAGE.size:
+            return
+        operation, pid = MESSAGE.unpack(message)
+        if operation == FORK:
+            data, output = struct.unpack("2i", ancillary[0][2])
+            me = os.getpid()
+            pid = os.fork()
+            if pid == 0:
+                child.live(me, data, output)
+            os.close(data)
+            os.close(output)
+            control.sendall(MESSAGE.pack(FORK, pid))
+        elif operation == KILL:
+            os.kill(pid, signal.SIGKILL)
+            dying.add(pid)
+        elif operation == WAIT:
+            os.kill(pid, signal.SIGKILL)
+            _, status, usage = os.wait4(pid, 0)
+            microseconds = int(1e6 * (usage.ru_utime + usage.ru_stime))
+            control.sendall(STATUS.pack(status, microseconds, usage.ru_maxrss))
+
+
+def _receive(control: socket.socket) -> bytes:
+    (length,) = struct.unpack("<I", _read(control, 4))
+    return _read(control, length)
+
+
+def _read(control: socket.socket, count: int) -> bytes:
+    data = bytearray()
+    while len(data) < count:
+        part = control.recv(min(count - len(data), 1 << 20))
+        if not part:
+            raise EOFError("the grader closed the control channel")
+        data += part
+    return bytes(data)
+
+
+def _boot() -> None:
+    """Load this file again as part of its package, so that relative imports work, and serve.
+
+    Arguments: the descriptor of the control channel, the grader's process id, the paths where
+    numpy and msgspec lie.
+    """
+    from importlib.util import module_from_spec, spec_from_file_location  # noqa: PLC0415  # used once
+
+    descriptor, grader, *paths = sys.argv[1:]
+    sys.path.extend(paths)
+    folder = os.path.dirname(os.path.abspath(__file__))
+    spec = spec_from_file_location("sandbox", os.path.join(folder, "__init__.py"), submodule_search_locations=[folder])
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{folder} cannot be loaded")
+    package = module_from_spec(spec)
+    sys.modules["sandbox"] = package
+    spec.loader.exec_module(package)
+    from sandbox import forkserver  # noqa: PLC0415  # the package exists only now
+
+    forkserver.serve(socket.socket(fileno=int(descriptor)), int(grader))
+
+
+if __name__ == "__main__":
+    _boot()

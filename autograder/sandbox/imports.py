@@ -1,0 +1,93 @@
+"""The import statement as a submission sees it: allowed modules, stand-ins, and proxies for the rest."""
+
+from __future__ import annotations
+
+import builtins
+from collections.abc import Sequence
+from typing import Any, NoReturn
+
+from .policy import ALLOWED, STAND_INS, STUDENT_MODULE
+from .standins import NOTHING, no_help, stand_in
+
+_import = builtins.__import__
+_OPERATORS = ["call", "iter", "next", "len", "getitem", "setitem", "delitem", "contains", "enter", "exit", "bool", "int", "float", "complex", "index", "round", "add", "radd", "iadd", "sub", "rsub", "isub", "mul", "rmul", "imul", "matmul", "rmatmul", "imatmul", "truediv", "rtruediv", "itruediv", "floordiv", "rfloordiv", "ifloordiv", "mod", "rmod", "imod", "pow", "rpow", "ipow", "neg", "pos", "abs", "invert", "and", "rand", "or", "ror", "xor", "rxor", "lshift", "rlshift", "rshift", "rrshift", "eq", "ne", "lt", "le", "gt", "ge", "hash", "array", "mro_entries", "format", "divmod", "rdivmod", "reversed", "trunc", "floor", "ceil", "fspath"]
+
+starred: list[str] = []  # modules that the submission tried to import with a star, and that are not allowed
+
+
+class ForbiddenImport(ImportError):
+    """A module that is not allowed was used; `name` says which."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(f"{name} is not allowed here; numpy and parts of the standard library are", name=name)
+
+
+def _refuse(self: Any, *_: Any, **__: Any) -> NoReturn:
+    raise ForbiddenImport(object.__getattribute__(self, "_name"))
+
+
+class Forbidden:
+    """What the name of a module that is not allowed is bound to: every use of it raises.
+
+    Attributes that the import statement itself asks for are proxies again, so that an import
+    which is never used costs nothing.
+    """
+
+    def __init__(self, name: str, parts: dict[str, Any]) -> None:
+        object.__setattr__(self, "_name", name)
+        object.__setattr__(self, "_parts", parts)
+
+    def __getattr__(self, name: str) -> Any:
+        parts = object.__getattribute__(self, "_parts")
+        if name in parts:
+            return parts[name]
+        raise ForbiddenImport(object.__getattribute__(self, "_name"))
+
+    def __repr__(self) -> str:
+        return f"<{object.__getattribute__(self, '_name')}: not allowed here>"
+
+    __setattr__ = __delattr__ = _refuse
+
+
+for _operator in _OPERATORS:
+    setattr(Forbidden, f"__{_operator}__", _refuse)
+
+
+def _proxies(name: str, fromlist: Sequence[str]) -> Forbidden:
+    """Make what `import a.b` (the proxy of a) or `from a.b import c` (the proxy of a.b) binds."""
+    if "*" in fromlist:
+        starred.append(name)
+    leaves: dict[str, Any] = {part: Forbidden(name, {}) for part in fromlist if part != "*"}
+    leaves["__all__"] = ()
+    proxy = Forbidden(name, leaves)
+    if fromlist:
+        return proxy
+    path = name.split(".")
+    for depth in range(len(path) - 1, 0, -1):
+        proxy = Forbidden(".".join(path[:depth]), {path[depth]: proxy, "__all__": ()})
+    return proxy
+
+
+def student_import(
+    name: str, globals: Any = None, locals: Any = None, fromlist: Sequence[str] | None = (), level: int = 0
+) -> Any:
+    """Do what `__import__` does, by the rules for submissions."""
+    if level:
+        raise ImportError("attempted relative import: a submission is one file, without a package around it")
+    root = name.partition(".")[0]
+    if root in ALLOWED:
+        return _import(name, None, None, fromlist or (), 0)
+    if root in STAND_INS:
+        return stand_in(name)
+    if root == STUDENT_MODULE:
+        raise ModuleNotFoundError(f"No module named {name!r}: a submission cannot import itself", name=name)
+    return _proxies(name, tuple(fromlist or ()))
+
+
+def student_builtins() -> dict[str, Any]:
+    """Make the builtins of a submission: Python's own, this import, and what a notebook has beside them."""
+    names = dict(vars(builtins))
+    names["__import__"] = student_import
+    names["get_ipython"] = names["display"] = NOTHING
+    names["help"] = no_help
+    return names

@@ -1,0 +1,178 @@
+"""What the grader gets back: numbers and bounded words, rebuilt from a child's bytes and checked."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from autograder.sandbox.frames import (
+    MAX_DIMENSIONS,
+    MAX_REASON,
+    AnswerData,
+    Batch,
+    BatchReport,
+    Kind,
+    Outcome,
+    Source,
+    Status,
+    reply_bound,
+)
+
+_LAST_OUTCOME = max(Outcome)
+_LAST_KIND = max(Kind)
+
+
+@dataclass(frozen=True)
+class Expected:
+    """What of a batch its outputs are checked against."""
+
+    cases: int
+    parts: int
+    most: int
+    bound: int
+
+    @classmethod
+    def of(cls, batch: Batch) -> Expected:
+        """Read it off a batch."""
+        return cls(len(batch.cases), batch.parts, batch.max_elements, reply_bound(batch))
+
+
+class Violation(Exception):  # noqa: N818  # an outcome of a run, caught by the session
+    """A child sent what no honest child sends."""
+
+
+@dataclass(frozen=True)
+class Note:
+    """A statement of a submission that was skipped; `where` is "line 12" or "cell 3, line 2"."""
+
+    where: str
+    status: Status
+    message: str
+
+
+@dataclass(frozen=True)
+class Answers:
+    """The student's answers for the own variant; None is unfinished, `bad` says what could not be used."""
+
+    iterates: np.ndarray | None = None
+    conclusion: str | None = None
+    written_2: str | None = None
+    written_3: str | None = None
+    bad: str = ""
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """What a submission defines once it is executed."""
+
+    functions: frozenset[str] = frozenset()
+    notes: tuple[Note, ...] = ()
+    answers: Answers = Answers()
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Why a batch gave no values at all; the message is for the student and holds no measured time."""
+
+    reason: Literal["timeout", "memory", "died", "output", "violation", "budget"]
+    message: str
+
+
+@dataclass(frozen=True)
+class Outputs:
+    """The values of a batch, as views over one buffer.
+
+    Parameters
+    ----------
+    outcome : (cases,) uint8 array
+        An `Outcome` for every case.
+    kinds : (cases * parts,) uint8 array
+        A `Kind` for every value; advisory.
+    shapes : list of tuple of int
+        The shape of every value; () where the outcome is not OK.
+    offsets : (cases * parts + 1,) int64 array
+        Where in `data` each value begins; a value without elements begins where the next one does.
+    data : (total,) float64 array
+        All elements, each value in C order. They may be infinite or NaN.
+    reasons : dict of int to str
+        Words for at most 16 of the cases that are not OK.
+    mutated : int
+        The first case whose input array the call changed in place, -1 if none.
+    """
+
+    outcome: np.ndarray
+    kinds: np.ndarray
+    shapes: list[tuple[int, ...]]
+    offsets: np.ndarray
+    data: np.ndarray
+    reasons: dict[int, str]
+    mutated: int
+
+
+def read_outputs(report: BatchReport, expected: Expected) -> Outputs:
+    """Check a report against what was asked for; raises Violation where it does not fit."""
+    cases, parts = expected.cases, expected.parts
+    values = cases * parts
+    if not len(report.outcome) == cases or not len(report.kinds) == len(report.dimensions) == values:
+        raise Violation("the number of values is not that of the calls")
+    if len(report.sizes) % 8 or len(report.data) % 8 or report.mutated >= cases:
+        raise Violation("a table is not of the length that it says")
+    outcome = np.frombuffer(report.outcome, np.uint8)
+    kinds = np.frombuffer(report.kinds, np.uint8)
+    if (cases and outcome.max() > _LAST_OUTCOME) or (values and kinds.max() > _LAST_KIND):
+        raise Violation("an outcome or a kind does not exist")
+    shapes = _shapes(report.dimensions, np.frombuffer(report.sizes, "<i8").tolist())
+    fine = np.repeat(outcome == Outcome.OK, parts)
+    sizes = np.fromiter(map(math.prod, shapes), np.int64, values) * fine
+    if (sizes > expected.most).any() or any(shapes[place] for place in np.flatnonzero(~fine).tolist()):
+        raise Violation("a shape is not one that may be reported")
+    offsets = np.zeros(values + 1, np.int64)
+    np.cumsum(sizes, out=offsets[1:])
+    if int(offsets[-1]) * 8 != len(report.data):
+        raise Violation("the data are not as long as the shapes say")
+    if any(case >= cases for case in report.reasons):
+        raise Violation("a reason is given for a call that was not asked for")
+    reasons = {case: printable(text) for case, text in sorted(report.reasons.items())}
+    return Outputs(outcome, kinds, shapes, offsets, np.frombuffer(report.data, "<f8"), reasons, report.mutated)
+
+
+def _shapes(dimensions: bytes, sizes: list[int]) -> list[tuple[int, ...]]:
+    if sum(dimensions) != len(sizes) or max(dimensions, default=0) > MAX_DIMENSIONS:
+        raise Violation("the shapes do not fit their dimensions")
+    if min(sizes, default=0) < 0 or max(sizes, default=0) > 1 << 31:
+        raise Violation("a shape has a side of impossible length")
+    shapes, at = [], 0
+    for count in dimensions:
+        shapes.append(tuple(sizes[at : at + count]))
+        at += count
+    return shapes
+
+
+def read_answers(data: AnswerData) -> Answers:
+    """Rebuild the answers; raises Violation where shape and data do not fit."""
+    iterates = None
+    if data.iterates_shape is not None:
+        if math.prod(data.iterates_shape) * 8 != len(data.iterates):
+            raise Violation("the iterates are not as long as their shape says")
+        iterates = np.frombuffer(data.iterates, "<f8").reshape(data.iterates_shape)
+    return Answers(iterates, data.conclusion, data.written_2, data.written_3, printable(data.bad, 4 * MAX_REASON))
+
+
+def printable(text: str, most: int = MAX_REASON) -> str:
+    """Keep of a stranger's words what can be printed, on one line, up to a bound.
+
+    Examples
+    --------
+    >>> printable("ValueError: " + chr(27) + "[31mbad" + chr(10) + "luck")
+    'ValueError: [31mbad luck'
+    """
+    shown = "".join(letter if letter.isprintable() else " " for letter in text[: 2 * most])
+    return " ".join(shown.split())[:most]
+
+
+def place(source: Source, cell: int, line: int) -> str:
+    """Say where a statement stands, as a student counts."""
+    return f"line {line}" if source.kind == "module" else f"cell {cell + 1}, line {line}"
