@@ -1,0 +1,35 @@
+# expect: others=passed; style 13: collects the columns of J and transposes.
+import numpy as np
+
+
+def residual(x, graph):
+    f = np.zeros(graph.n_factors)
+    for r, (i, j) in enumerate(graph.edges):
+        f[r] = x[i] + graph.measurements[r] - x[j]
+    for r, k in enumerate(graph.priors):
+        f[len(graph.edges) + r] = x[k] - graph.prior_means[r]
+    return f
+
+
+def jacobian(x, graph):
+    columns = []
+    for c in range(graph.n_poses):
+        starts = (graph.edges[:, 0] == c).astype(float)
+        ends = (graph.edges[:, 1] == c).astype(float)
+        columns.append(np.concatenate([starts - ends, (graph.priors == c) * 1.0]))
+    return np.array(columns).T
+
+
+def information_matrix(graph):
+    return np.diag(np.concatenate([1 / graph.edge_variances, 1 / graph.prior_variances]))
+
+
+def normal_equations(J, omega, f):
+    H = J.T @ omega @ J
+    b = J.T @ omega @ f
+    return H, b
+
+
+def gauss_newton_step(x, graph):
+    H, b = normal_equations(jacobian(x, graph), information_matrix(graph), residual(x, graph))
+    return np.linalg.solve(H, -b)

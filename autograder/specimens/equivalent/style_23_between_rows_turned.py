@@ -1,0 +1,36 @@
+# expect: others=passed remark=row_sign; style 23: x_j - x_i - u, and J to match.
+import numpy as np
+
+
+def residual(x, graph):
+    f = np.zeros(graph.n_factors)
+    for r, (i, j) in enumerate(graph.edges):
+        f[r] = x[j] - x[i] - graph.measurements[r]
+    for r, k in enumerate(graph.priors):
+        f[len(graph.edges) + r] = x[k] - graph.prior_means[r]
+    return f
+
+
+def jacobian(x, graph):
+    J = np.zeros((graph.n_factors, graph.n_poses))
+    for r, (i, j) in enumerate(graph.edges):
+        J[r, i] = -1
+        J[r, j] = 1
+    for r, k in enumerate(graph.priors):
+        J[len(graph.edges) + r, k] = 1
+    return J
+
+
+def information_matrix(graph):
+    return np.diag(np.concatenate([1 / graph.edge_variances, 1 / graph.prior_variances]))
+
+
+def normal_equations(J, omega, f):
+    H = J.T @ omega @ J
+    b = J.T @ omega @ f
+    return H, b
+
+
+def gauss_newton_step(x, graph):
+    H, b = normal_equations(jacobian(x, graph), information_matrix(graph), residual(x, graph))
+    return np.linalg.solve(H, -b)
