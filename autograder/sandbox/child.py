@@ -88,7 +88,8 @@ def _arrange(data: int, output: int) -> None:
     os.dup2(data, DATA)  # last: the output may have come as this number
     raw = io.FileIO(OUTPUT, "w", closefd=False)
     stream = io.TextIOWrapper(io.BufferedWriter(raw, 1 << 16), encoding="utf-8", errors="replace")
-    sys.stdout = sys.stderr = sys.__stdout__ = sys.__stderr__ = stream
+    for name in ("stdout", "stderr", "__stdout__", "__stderr__"):
+        setattr(sys, name, stream)
     sys.stdin = io.StringIO()
     sys.argv = ["slam1d.py"]
     random.seed(0)  # Python seeds it anew in every fork; two runs of a submission must agree

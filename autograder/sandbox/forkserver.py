@@ -7,12 +7,14 @@ an operation and a number; a fork comes with two descriptors for the child.
 from __future__ import annotations
 
 import gc
+import importlib
 import os
 import select
 import signal
 import socket
 import struct
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -38,7 +40,9 @@ def serve(control: socket.socket, grader: int) -> None:
     try:
         _loop(control, grader, child)
     except (BrokenPipeError, ConnectionResetError):
-        return
+        pass
+    finally:
+        os._exit(0)  # at once: there is nothing to tidy up, and the grader waits
 
 
 def _set_up(setup: Any) -> tuple[Child, Any]:
@@ -135,16 +139,14 @@ def _boot() -> None:
 
     descriptor, grader, *paths = sys.argv[1:]
     sys.path.extend(paths)
-    folder = os.path.dirname(os.path.abspath(__file__))
-    spec = spec_from_file_location("sandbox", os.path.join(folder, "__init__.py"), submodule_search_locations=[folder])
+    folder = Path(__file__).resolve().parent
+    spec = spec_from_file_location("sandbox", folder / "__init__.py", submodule_search_locations=[str(folder)])
     if spec is None or spec.loader is None:
         raise ImportError(f"{folder} cannot be loaded")
     package = module_from_spec(spec)
     sys.modules["sandbox"] = package
     spec.loader.exec_module(package)
-    from sandbox import forkserver  # noqa: PLC0415  # the package exists only now
-
-    forkserver.serve(socket.socket(fileno=int(descriptor)), int(grader))
+    importlib.import_module("sandbox.forkserver").serve(socket.socket(fileno=int(descriptor)), int(grader))
 
 
 if __name__ == "__main__":

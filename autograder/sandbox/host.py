@@ -196,6 +196,7 @@ class Session:
         if self._channel is None:
             return self._given_up or Failure("died", "the submission could not be loaded again")
         try:
+            self._channel.require_silence()
             self._channel.begin(frames.pack(request), nonce)
             reply = self._channel.reply(expected.bound, self._limits.cpu_seconds)
             self._channel.require_silence()
@@ -261,7 +262,7 @@ class Session:
         elif len(self._skip) >= _MOST_RESTARTS:
             self._stop = key
             message += "; too many statements did, so nothing from here on was executed"
-        self._skip[key] = Note(place(self._source, at.cell, at.line), status, message)  # type: ignore[arg-type]
+        self._skip[key] = Note(place(self._source, at.cell, at.line), status, message)
 
     def _read(self, report: frames.LoadReport) -> Loaded:
         notes = [

@@ -10,12 +10,17 @@ from .policy import ALLOWED, STAND_INS, STUDENT_MODULE
 from .standins import NOTHING, no_help, stand_in
 
 _import = builtins.__import__
-_OPERATORS = ["call", "iter", "next", "len", "getitem", "setitem", "delitem", "contains", "enter", "exit", "bool", "int", "float", "complex", "index", "round", "add", "radd", "iadd", "sub", "rsub", "isub", "mul", "rmul", "imul", "matmul", "rmatmul", "imatmul", "truediv", "rtruediv", "itruediv", "floordiv", "rfloordiv", "ifloordiv", "mod", "rmod", "imod", "pow", "rpow", "ipow", "neg", "pos", "abs", "invert", "and", "rand", "or", "ror", "xor", "rxor", "lshift", "rlshift", "rshift", "rrshift", "eq", "ne", "lt", "le", "gt", "ge", "hash", "array", "mro_entries", "format", "divmod", "rdivmod", "reversed", "trunc", "floor", "ceil", "fspath"]
+_OPERATORS = """
+    call iter next len getitem setitem delitem contains enter exit bool int float complex index round add radd
+    iadd sub rsub isub mul rmul imul matmul rmatmul imatmul truediv rtruediv itruediv floordiv rfloordiv
+    ifloordiv mod rmod imod pow rpow ipow neg pos abs invert and rand or ror xor rxor lshift rlshift rshift
+    rrshift eq ne lt le gt ge hash array mro_entries format divmod rdivmod reversed trunc floor ceil fspath
+"""
 
 starred: list[str] = []  # modules that the submission tried to import with a star, and that are not allowed
 
 
-class ForbiddenImport(ImportError):
+class ForbiddenImport(ImportError):  # noqa: N818  # an outcome of a call, named as the reports name it
     """A module that is not allowed was used; `name` says which."""
 
     def __init__(self, name: str) -> None:
@@ -49,7 +54,7 @@ class Forbidden:
     __setattr__ = __delattr__ = _refuse
 
 
-for _operator in _OPERATORS:
+for _operator in _OPERATORS.split():
     setattr(Forbidden, f"__{_operator}__", _refuse)
 
 
@@ -69,7 +74,11 @@ def _proxies(name: str, fromlist: Sequence[str]) -> Forbidden:
 
 
 def student_import(
-    name: str, globals: Any = None, locals: Any = None, fromlist: Sequence[str] | None = (), level: int = 0
+    name: str,
+    globals: Any = None,  # noqa: A002, ARG001  # the names that Python's own import has
+    locals: Any = None,  # noqa: A002, ARG001  # as above
+    fromlist: Sequence[str] | None = (),
+    level: int = 0,
 ) -> Any:
     """Do what `__import__` does, by the rules for submissions."""
     if level:

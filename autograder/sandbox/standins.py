@@ -11,7 +11,13 @@ from typing import Any
 import numpy as np
 
 _UNPACK = dis.opmap["UNPACK_SEQUENCE"]
-_PYPLOT = ["annotate", "arrow", "axes", "axhline", "axis", "axvline", "bar", "barh", "boxplot", "cla", "clf", "close", "cm", "colorbar", "contour", "contourf", "draw", "errorbar", "figtext", "figure", "fill", "fill_between", "gca", "gcf", "get_cmap", "grid", "hist", "hlines", "imread", "imshow", "ioff", "ion", "legend", "loglog", "margins", "matshow", "pause", "pcolormesh", "pie", "plot", "polar", "quiver", "rc", "rcParams", "savefig", "scatter", "semilogx", "semilogy", "setp", "show", "spy", "stackplot", "stem", "step", "style", "subplot", "subplots", "subplots_adjust", "suptitle", "table", "text", "tick_params", "tight_layout", "title", "twinx", "violinplot", "vlines", "xlabel", "xlim", "xscale", "xticks", "ylabel", "ylim", "yscale", "yticks"]
+_PYPLOT = """
+    annotate arrow axes axhline axis axvline bar barh boxplot cla clf close cm colorbar contour contourf draw
+    errorbar figtext figure fill fill_between gca gcf get_cmap grid hist hlines imread imshow ioff ion legend
+    loglog margins matshow pause pcolormesh pie plot polar quiver rc rcParams savefig scatter semilogx
+    semilogy setp show spy stackplot stem step style subplot subplots subplots_adjust suptitle table text
+    tick_params tight_layout title twinx violinplot vlines xlabel xlim xscale xticks ylabel ylim yscale yticks
+"""
 
 
 class Nothing:
@@ -23,13 +29,14 @@ class Nothing:
     __array_ufunc__ = None
 
     def __call__(self, *arguments: Any, **_: Any) -> Any:
+        """Do nothing; around a function, as a decorator does, leave it as it is."""
         if len(arguments) == 1 and type(arguments[0]) is FunctionType:
-            return arguments[0]  # as a decorator it leaves the function as it is
+            return arguments[0]
         return self
 
     def __getattr__(self, name: str) -> Any:
         if name == "__all__":
-            return _PYPLOT  # for `from matplotlib.pyplot import *`
+            return _PYPLOT.split()  # for `from matplotlib.pyplot import *`
         if name == "subplots":
             return _subplots
         if name.startswith("__") and name.endswith("__"):
@@ -113,6 +120,7 @@ class _Progress(Nothing):
     """The module tqdm, or one of its submodules, or its class of the same name."""
 
     def __call__(self, *arguments: Any, **keywords: Any) -> Any:
+        """Wrap an iterable."""
         return Bar(*arguments[:1], **keywords) if "iterable" not in keywords else Bar(keywords["iterable"])
 
     def __getattr__(self, name: str) -> Any:

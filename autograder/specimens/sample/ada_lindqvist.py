@@ -1,0 +1,28 @@
+# expect: 
+"""1D SLAM, Ada Lindqvist."""
+
+import numpy as np
+
+
+def residual(x, graph):
+    start, end = graph.edges[:, 0], graph.edges[:, 1]
+    return np.hstack((x[start] + graph.measurements - x[end], x[graph.priors] - graph.prior_means))
+
+
+def jacobian(x, graph):
+    eye = np.eye(graph.n_poses)
+    return np.vstack((eye[graph.edges[:, 0]] - eye[graph.edges[:, 1]], eye[graph.priors]))
+
+
+def information_matrix(graph):
+    return np.diag(1 / np.hstack((graph.edge_variances, graph.prior_variances)))
+
+
+def normal_equations(J, omega, f):
+    weighted = J.T @ omega
+    return weighted @ J, weighted @ f
+
+
+def gauss_newton_step(x, graph):
+    H, b = normal_equations(jacobian(x, graph), information_matrix(graph), residual(x, graph))
+    return np.linalg.solve(H, -b)

@@ -1,0 +1,34 @@
+# expect: 
+import numpy as np
+
+
+def residual(x, graph):
+    i, j = graph.edges.T
+    return np.append(x[i] + graph.measurements - x[j], x[graph.priors] - graph.prior_means)
+
+
+def jacobian(x, graph):
+    m, n, k = graph.n_factors, graph.n_poses, len(graph.edges)
+    J = np.zeros((m, n))
+    for r in range(m):
+        if r < k:
+            i, j = graph.edges[r]
+            J[r, i] = 1
+            J[r, j] = -1
+        else:
+            J[r, graph.priors[r - k]] = 1
+    return J
+
+
+def information_matrix(graph):
+    return np.diag(1 / np.append(graph.edge_variances, graph.prior_variances))
+
+
+def normal_equations(J, omega, f):
+    return J.T @ omega @ J, J.T @ omega @ f
+
+
+def gauss_newton_step(x, graph):
+    H, b = normal_equations(jacobian(x, graph), information_matrix(graph), residual(x, graph))
+    dx = np.linalg.solve(H, -b)
+    return np.round(dx, 4)
