@@ -21,13 +21,13 @@ def safe_name(text: str) -> str:
     Examples
     --------
     >>> safe_name("Zoë Müller_17"), safe_name("../../etc/passwd"), safe_name("=cmd|x"), safe_name("con")
-    ('Zoë Müller_17', '_.._etc_passwd', '_cmd_x', 'con_')
+    ('Zoë Müller_17', '_.._etc_passwd', '_cmd_x', '_con')
     """
     normal = unicodedata.normalize("NFC", text)
     kept = "".join(char if _is_kept(char) else "_" for char in normal)
     kept = kept.lstrip(" .-+@").rstrip(" .")
     if kept.split(".")[0].strip().casefold() in _RESERVED:
-        kept += "_"
+        kept = f"_{kept}"  # names of devices on Windows
     if not kept.strip("_.,()+@- "):
         kept = "submission"
     return shorten(kept)

@@ -7,6 +7,7 @@ other, and what its metadata or outputs claim is not seen. Where a key stands tw
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 import msgspec
@@ -18,6 +19,8 @@ MAX_NOTEBOOK = 20 << 20  # bytes of the file, outputs included
 MAX_CELLS = 10_000
 _MAX_RAW = 6 * MAX_SOURCE  # a source as JSON: escapes make it longer, at most six bytes for one
 _UTF8_MARK = b"\xef\xbb\xbf"
+_HIGH, _LOW = rb"\\u[dD][89abAB][0-9a-fA-F]{2}", rb"\\u[dD][c-fC-F][0-9a-fA-F]{2}"
+_SURROGATES = re.compile(rb"(?<!\\)((?:\\\\)*)(?:(%b%b)|%b|%b)" % (_HIGH, _LOW, _HIGH, _LOW))
 _OLD_FORMAT = "is a notebook of format {}, expected 4; open it in a current Jupyter, save it and hand it in again"
 
 
@@ -81,19 +84,34 @@ def looks_like_notebook(data: bytes) -> bool:
 def _decode(data: bytes) -> _Notebook:
     body = data.removeprefix(_UTF8_MARK)
     try:
-        return _NOTEBOOK.decode(body)
+        return _parse(body)
     except RecursionError:
         raise RejectedUpload("is JSON nested too deeply for a notebook; save it in Jupyter again") from None
     except msgspec.ValidationError as error:
         raise RejectedUpload(f"is JSON but no notebook ({error}); save it in Jupyter and hand it in again") from None
-    except (msgspec.DecodeError, UnicodeDecodeError, ValueError):
+    except (msgspec.DecodeError, ValueError) as error:
         if not body.strip():
             raise RejectedUpload("is empty, expected a notebook; save it in Jupyter and hand it in again") from None
         if b"<<<<<<< " in body and b">>>>>>> " in body:
             raise RejectedUpload("holds an unfinished git merge; resolve it, open it in Jupyter and save it") from None
         if not body.lstrip().startswith(b"{"):
             raise RejectedUpload("is no notebook (not JSON); a Python file needs a name that ends in .py") from None
-        raise RejectedUpload("is no valid JSON, so no notebook; open it in Jupyter and save it again") from None
+        at = re.search(r"\(byte (\d+)\)", str(error))
+        line = body.count(b"\n", 0, int(at[1])) + 1 if at else 0
+        where = f" (line {line})" if at else ""
+        raise RejectedUpload(f"is no valid JSON{where}, so no notebook; open it in Jupyter and save it again") from None
+
+
+def _parse(body: bytes) -> _Notebook:
+    """Decode the JSON; half a surrogate pair, which Python writes and JSON forbids, is replaced."""
+    try:
+        return _NOTEBOOK.decode(body)
+    except msgspec.ValidationError:
+        raise
+    except msgspec.DecodeError:
+        if (mended := _SURROGATES.sub(lambda found: found[1] + (found[2] or rb"\ufffd"), body)) == body:
+            raise
+        return _NOTEBOOK.decode(mended)
 
 
 def _version(raw: msgspec.Raw | msgspec.UnsetType) -> str:

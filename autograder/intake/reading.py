@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from autograder.errors import RejectedUpload
 from autograder.intake.archive import MAX_ARCHIVE, archive_tree
 from autograder.intake.module import MAX_SOURCE, read_module
+from autograder.intake.naming import printable
 from autograder.intake.notebook import MAX_NOTEBOOK, looks_like_notebook, read_notebook
 from autograder.intake.tree import Entry
 from autograder.intake.upload import choose
@@ -37,7 +38,7 @@ def read_entry(entry: Entry) -> Content:
     if looks_like_notebook(data):
         content = _read_notebook(data, entry.name)
         return replace(content, notes=(*content.notes, "Read as a notebook: its content is one, whatever its name."))
-    source = Source(kind="module", cells=[read_module(data)], name=entry.name)
+    source = Source(kind="module", cells=[read_module(data)], name=printable(entry.name))
     return Content(source, notes=() if data.strip() else ("The file is empty.",))
 
 
@@ -53,7 +54,7 @@ def digest(source: Source) -> str:
 
 def _read_notebook(data: bytes, name: str) -> Content:
     notebook = read_notebook(data)
-    source = Source(kind="notebook", cells=list(notebook.code), name=name)
+    source = Source(kind="notebook", cells=list(notebook.code), name=printable(name))
     return Content(source, notebook.markdown, notebook.notes)
 
 

@@ -10,8 +10,8 @@ from autograder.intake.naming import printable
 from autograder.intake.tree import PROVIDED_FILES, Entry, is_candidate
 
 EXPECTED = "expected one .py, .ipynb or .zip file"
-_CANONICAL = "slam1d"  # the name under which the homework is handed out
-_HELPER_FILES = re.compile(r"(__init__|conftest|setup|noxfile|test_.*|.*_test)\.py", re.IGNORECASE)
+HOMEWORK = "slam1d"  # the name under which the homework is handed out
+_COMPANIONS = re.compile(r"(__init__|conftest|setup|noxfile|test_.*|.*_test)\.py", re.IGNORECASE)
 _WRONG_KINDS = re.compile(r".*(\.(rar|7z|tar|tgz|gz|bz2|xz|pyw|pyc)|\.(py|ipynb)\.(txt|json|html))", re.IGNORECASE)
 
 
@@ -56,10 +56,10 @@ def choose(entries: Sequence[Entry]) -> tuple[Entry | None, str, tuple[str, ...]
     """
     candidates = [entry for entry in entries if is_candidate(entry)]
     if len(candidates) > 1:
-        candidates = [entry for entry in candidates if not _HELPER_FILES.fullmatch(entry.name)] or candidates
+        candidates = without_companions(candidates)
     if len(candidates) == 1:
         return candidates[0], "", ()
-    named = [entry for entry in candidates if entry.stem.casefold() == _CANONICAL]
+    named = [entry for entry in candidates if entry.stem.casefold() == HOMEWORK]
     if len(named) == 1:
         others = listing([entry.name for entry in candidates if entry is not named[0]])
         return named[0], "", (f"Graded {named[0].name}; also handed in and not graded: {others}.",)
@@ -70,6 +70,11 @@ def choose(entries: Sequence[Entry]) -> tuple[Entry | None, str, tuple[str, ...]
     if any(name.casefold() in PROVIDED_FILES for name in found):
         return None, f"holds only files that were handed out ({listing(found)}), {EXPECTED}", ()
     return None, f"holds no submission (found {listing(found) or 'nothing'}), {EXPECTED}", ()
+
+
+def without_companions(entries: Sequence[Entry]) -> list[Entry]:
+    """Leave out files that go with Python code (setup.py, tests, __init__.py), unless nothing is left."""
+    return [entry for entry in entries if not _COMPANIONS.fullmatch(entry.name)] or list(entries)
 
 
 def is_wrong_kind(entry: Entry) -> bool:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from autograder.intake.tree import Entry, Tree, is_candidate
-from autograder.intake.upload import Upload, is_wrong_kind, wrong_kind_problem
+from autograder.intake.upload import HOMEWORK, Upload, is_wrong_kind, wrong_kind_problem
 
 TITLE = "plain folder of files"
-_SAYS_NOTHING = "slam1d"  # the name the homework is handed out under tells nobody's work apart
 
 
 def recognise(tree: Tree) -> float:
@@ -20,7 +19,8 @@ def gather(tree: Tree) -> list[Upload]:
     for entry in tree.entries:
         folder = entry.parts[-2] if len(entry.parts) > 1 else tree.name
         if is_candidate(entry):
-            name = folder if entry.stem.casefold() == _SAYS_NOTHING and _is_alone(entry, tree) else entry.stem
+            # the name under which the homework is handed out does not say whose it is
+            name = folder if entry.stem.casefold() == HOMEWORK and _is_alone(entry, tree) else entry.stem
             uploads.append(Upload(name=name, entry=entry, folder=folder))
         elif is_wrong_kind(entry) or (entry.problem and not entry.suffix):
             problem = entry.problem or wrong_kind_problem(entry)

@@ -1,0 +1,88 @@
+"""Canvas's submissions.zip: one flat folder of files named <name>[_LATE]_<user id>_<attachment id>_<file>."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+
+from autograder.intake.naming import printable
+from autograder.intake.tree import Entry, Tree, is_candidate
+from autograder.intake.upload import HOMEWORK, Upload, choose, listing, without_companions
+
+TITLE = "Canvas submissions.zip"
+
+_NAME = r"(?:(?P<before>LATE_)?(?P<anonymous>anon_[^_]+)|(?P<name>.+?)(?P<after>_LATE)?_(?P<user>\d+))"
+_FILE = re.compile(_NAME + r"_(?P<attachment>\d{1,18})_(?P<file>.+)", re.IGNORECASE | re.DOTALL)
+_ENTRY = re.compile(_NAME + r"_(?P<kind>text|link)\.html", re.IGNORECASE | re.DOTALL)
+_ATTEMPT = re.compile(r"-\d{1,3}$")  # Canvas appends -1, -2 .. to the name of a file that is handed in again
+
+
+@dataclass(frozen=True)
+class _Attachment:
+    """One file of one student; `own` is the entry under the name that the student gave it."""
+
+    entry: Entry
+    own: Entry
+    student_id: str
+    late: bool
+    number: int  # attachment ids grow with time
+
+
+def recognise(tree: Tree) -> float:
+    """Claim folders where nearly every file at the top has a name of this pattern."""
+    ours = sum(_is_ours(entry) for entry in tree.entries)
+    foreign = sum(is_candidate(entry) and not _is_ours(entry) for entry in tree.entries)
+    return 0.9 if ours >= 9 * foreign and ours else 0.0
+
+
+def gather(tree: Tree) -> list[Upload]:
+    """Take the newest file of each student; text entries and links are reported where there is no file."""
+    students: dict[str, list[_Attachment]] = {}
+    others: dict[str, tuple[Entry, str]] = {}
+    uploads = []
+    for entry in tree.entries:
+        if found := _FILE.fullmatch(entry.name):
+            own = replace(entry, parts=(found["file"],))
+            late = bool(found["before"] or found["after"])
+            attachment = _Attachment(entry, own, _id(found), late, int(found["attachment"]))
+            students.setdefault(_student(found), []).append(attachment)
+        elif found := _ENTRY.fullmatch(entry.name):
+            others[_student(found)] = (entry, _id(found))
+        elif is_candidate(entry):
+            problem = "has a name that Canvas does not give, so whose it is cannot be told; give it by itself"
+            uploads.append(Upload(name=entry.stem, entry=entry, problem=entry.problem or problem))
+    uploads += [_newest(student, attachments) for student, attachments in students.items()]
+    for student, (entry, student_id) in others.items():
+        if student not in students:
+            problem = "is a text or a link typed into Canvas, expected one .py, .ipynb or .zip file"
+            uploads.append(Upload(name=student, entry=entry, problem=problem, student_id=student_id))
+    return uploads
+
+
+def _newest(student: str, attachments: list[_Attachment]) -> Upload:
+    """Take the newest file, of those with the homework's name where there are any."""
+    candidates = [one for one in attachments if is_candidate(one.own)]
+    kept = without_companions([one.own for one in candidates])
+    named = [one for one in candidates if _ATTEMPT.sub("", one.own.stem).casefold() == HOMEWORK]
+    pool = named or [one for one in candidates if one.own in kept]
+    if not pool:
+        _, problem, _ = choose([one.own for one in attachments])
+        first = attachments[0]
+        return Upload(student, None, problem, folder=student, student_id=first.student_id, late=first.late)
+    newest = max(pool, key=lambda one: one.number)
+    left = [one.own.name for one in sorted(candidates, key=lambda one: -one.number) if one is not newest]
+    words = f"Graded {printable(newest.own.name)[:80]}, the newest; also handed in: {listing(left)}."
+    notes = (words,) if left else ()
+    return Upload(student, newest.entry, notes=notes, student_id=newest.student_id, late=newest.late)
+
+
+def _is_ours(entry: Entry) -> bool:
+    return len(entry.parts) == 1 and bool(_FILE.fullmatch(entry.name) or _ENTRY.fullmatch(entry.name))
+
+
+def _student(found: re.Match[str]) -> str:
+    return found["anonymous"] or f"{found['name']}_{found['user']}"
+
+
+def _id(found: re.Match[str]) -> str:
+    return (found["anonymous"] or found["user"]).removeprefix("anon_")
