@@ -37,7 +37,10 @@ class CheckVerdict(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class StageVerdict(msgspec.Struct, frozen=True, kw_only=True):
-    """One stage of a submission: the sum of its checks, and the reason in words."""
+    """One stage of a submission: the sum of its checks, and the reason in words.
+
+    `group` is the same for submissions that answered alike where they are wrong.
+    """
 
     name: str
     status: StageStatus
@@ -48,6 +51,7 @@ class StageVerdict(msgspec.Struct, frozen=True, kw_only=True):
     message: str = ""
     hint: str = ""
     remarks: tuple[str, ...] = ()
+    group: str = ""
     checks: tuple[CheckVerdict, ...] = ()
 
 

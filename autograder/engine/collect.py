@@ -4,19 +4,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
+from numpy.typing import NDArray
+
+from autograder.engine import follow
 from autograder.engine.plan import Plan, Task
+from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Failure, Loaded, Outputs, Session
 
 
 @dataclass(frozen=True)
 class Reply:
-    """What came back for one check: numbers, or the reason why there are none.
+    """What came back for one check, judged: numbers, or the reason why there are none.
 
-    `again` is the second round of calls, for a stage that asks one.
+    `again` is the second round of calls, for a stage that asks one; `right` says for each case
+    whether every call returned numbers that are judged right.
     """
 
     outputs: Outputs | Failure
     again: Outputs | Failure | None = None
+    right: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
 
     @property
     def failure(self) -> Failure | None:
@@ -26,16 +33,24 @@ class Reply:
                 return part
         return None
 
+    @property
+    def passed(self) -> bool:
+        """Whether every case is right."""
+        return self.failure is None and bool(self.right.all())
 
-@dataclass(frozen=True)
+
+@dataclass
 class Collected:
     """All that one submission answered.
 
     `replies` goes by the number of the batch; a stage whose function is not defined has none.
+    `own_systems` holds the student's H and b for each rung of the graphs, where an earlier
+    function is wrong and all of them return numbers.
     """
 
     loaded: Loaded
     replies: dict[int, Reply] = field(default_factory=dict)
+    own_systems: dict[str, follow.Systems] | None = None
 
     @property
     def ran_out(self) -> bool:
@@ -47,11 +62,12 @@ class Collected:
 
 def collect(session: Session, plan: Plan) -> Collected:
     """Load the submission and run every check; a stage that hangs or dies costs only itself."""
-    loaded = session.load()
-    collected = Collected(loaded)
+    collected = Collected(session.load())
     for stage, tasks in plan.stages:
-        if stage.function not in loaded.functions:
+        if stage.function not in collected.loaded.functions:
             continue
+        if stage.name == follow.STAGE:
+            collected.own_systems = _own_systems(session, plan, collected)
         for task in tasks:
             reply = _ask(session, plan, task)
             collected.replies[task.batch] = reply
@@ -66,6 +82,35 @@ def _ask(session: Session, plan: Plan, task: Task) -> Reply:
     if isinstance(outputs, Failure):
         return Reply(outputs)
     calls = task.stage.follow_up(task.prepared, outputs)
-    if calls is None:
-        return Reply(outputs)
-    return Reply(outputs, session.call(plan.batch(task.stage, calls)))
+    again = None if calls is None else session.call(plan.batch(task.stage, calls))
+    if isinstance(again, Failure):
+        return Reply(outputs, again)
+    right = task.stage.judge(task.prepared, outputs, again)
+    for part, firsts in ((outputs, task.first_calls), (again, np.arange(len(task.cases)))):
+        if part is not None and part.outcome.any():
+            right = right & np.logical_and.reduceat(part.outcome == Outcome.OK, firsts)
+    return Reply(outputs, again, right)
+
+
+def _own_systems(session: Session, plan: Plan, collected: Collected) -> dict[str, follow.Systems] | None:
+    """Ask for the student's own H and b on the graphs, in a child that has not called the step yet."""
+    earlier = [tasks for stage, tasks in plan.stages if stage.name in follow.EARLIER]
+    replies = [collected.replies.get(task.batch) for tasks in earlier for task in tasks]
+    if any(reply is None for reply in replies) or all(reply is not None and reply.passed for reply in replies):
+        return None
+    found = {}
+    for task in plan.tasks:
+        if task.stage.name != follow.STAGE:
+            continue
+        parts = [
+            reply.outputs
+            for name in follow.INGREDIENTS
+            if (reply := collected.replies.get(plan.batch_of(name, task.rung.name))) is not None
+        ]
+        calls = follow.own_calls(task.cases, [part for part in parts if isinstance(part, Outputs)])
+        outputs = None if calls is None else session.call(plan.batch(plan.stage(follow.LAST), calls))
+        systems = None if not isinstance(outputs, Outputs) else follow.own_systems(task.cases, outputs)
+        if systems is None:
+            return None
+        found[task.rung.name] = systems
+    return found

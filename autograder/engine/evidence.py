@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,21 @@ from numpy.typing import NDArray
 
 from assignment.posegraph import PoseGraph
 from autograder.engine.collect import Reply
+from autograder.engine.follow import array_of
 from autograder.engine.plan import Task
 from autograder.sandbox.frames import Kind, Outcome
 from autograder.sandbox.host import Outputs
 from autograder.stages.base import Array, fits
+
+@dataclass(frozen=True)
+class Joined:
+    """All answers of one stage."""
+
+    outcome: NDArray[np.uint8]
+    shapes: list[tuple[int, ...]]
+    offsets: NDArray[np.int64]
+    data: Array
+
 
 MAX_SHOWN_POSES = 10  # a larger counterexample is described in words only
 
@@ -32,10 +44,16 @@ _REMARKS = {
 }
 
 
-def first_calls(task: Task) -> NDArray[np.int64]:
-    """Return for each case the number of its first call in the batch."""
-    counts = np.array([len(task.stage.calls(case)) for case in task.cases])
-    return np.asarray(np.cumsum(counts) - counts)
+def joined(outputs: Sequence[Outputs]) -> Joined:
+    """Lay the batches of one stage end to end."""
+    sizes = np.cumsum([0, *(len(each.data) for each in outputs)])
+    offsets = [each.offsets[:-1] + start for each, start in zip(outputs, sizes[:-1], strict=True)]
+    return Joined(
+        outcome=np.concatenate([each.outcome for each in outputs]),
+        shapes=[shape for each in outputs for shape in each.shapes],
+        offsets=np.concatenate([*offsets, sizes[-1:]]),
+        data=np.concatenate([each.data for each in outputs]),
+    )
 
 
 def why(task: Task, index: int, reply: Reply) -> tuple[Outcome, str]:
@@ -43,7 +61,7 @@ def why(task: Task, index: int, reply: Reply) -> tuple[Outcome, str]:
     outputs = reply.outputs
     assert isinstance(outputs, Outputs)
     function = task.stage.function
-    first = int(first_calls(task)[index])
+    first = int(task.first_calls[index])
     calls = task.stage.calls(task.cases[index])
     for call in range(first, first + len(calls)):
         outcome = Outcome(int(outputs.outcome[call]))
@@ -81,18 +99,12 @@ def _arrays(task: Task, index: int, reply: Reply) -> list[Array]:
     outputs, again = reply.outputs, reply.again
     assert isinstance(outputs, Outputs)
     parts = task.stage.parts
-    first = int(first_calls(task)[index]) * parts
+    first = int(task.first_calls[index]) * parts
     last = first + len(task.stage.calls(task.cases[index])) * parts
-    found = [_array(outputs, number) for number in range(first, last)]
+    found = [array_of(outputs, number) for number in range(first, last)]
     if isinstance(again, Outputs):
-        found.append(_array(again, index))
+        found.append(array_of(again, index))
     return found
-
-
-def _array(outputs: Outputs, number: int) -> Array:
-    values = outputs.data[outputs.offsets[number] : outputs.offsets[number + 1]]
-    shape = outputs.shapes[number]
-    return values.reshape(shape) if values.size == np.prod(shape, dtype=np.int64) else np.full(shape[:0], np.nan)
 
 
 def counterexample(task: Task, index: int, reply: Reply) -> dict[str, Any] | None:
@@ -103,7 +115,7 @@ def counterexample(task: Task, index: int, reply: Reply) -> dict[str, Any] | Non
     function = task.stage.function
     outputs = reply.outputs
     assert isinstance(outputs, Outputs)
-    first = int(first_calls(task)[index])
+    first = int(task.first_calls[index])
     names = _ARGUMENTS.get(function, ("x", "graph"))
     example: dict[str, Any] = {"function": function}
     example.update((name, _json(argument)) for name, argument in zip(names, call, strict=True))

@@ -142,6 +142,7 @@ class _Grading:
                 memory_mib=self.course.memory_mib,
                 output_mib=self.course.output_mib,
                 allow_unconfined=self.settings.allow_unconfined,
+                follow_through=self.course.follow_through,
             )
         )
 

@@ -7,16 +7,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from autograder.engine import evidence
+from autograder.diagnosis.equivalence import Convention, Rows, convention
+from autograder.diagnosis.recognise import Recogniser
+from autograder.engine import evidence, follow
 from autograder.engine.collect import Collected, Reply
+from autograder.engine.groups import digest
 from autograder.engine.plan import Plan, Task
 from autograder.problems.cases import simplicity
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs
-from autograder.stages.base import Stage
+from autograder.stages.base import Slip, Stage
 from autograder.verdicts import CheckVerdict, StageStatus, StageVerdict
 
-# What a stage is called whose checks all failed for this reason.
+# What a stage is called whose first failed check failed for this reason.
 _STATUS_OF_FAILURE: dict[str, StageStatus] = {
     "timeout": "timeout",
     "budget": "timeout",
@@ -33,98 +36,160 @@ _STATUS_OF_OUTCOME: dict[Outcome, StageStatus] = {
     Outcome.BAD_VALUE: "failed",
     Outcome.OK: "failed",
 }
+_INTERCHANGEABLE = ("residual", "jacobian", "information_matrix")  # stages that a common convention keeps whole
 
 
-def judge(plan: Plan, collected: Collected) -> tuple[StageVerdict, ...]:
-    """Judge every stage of one submission."""
-    return tuple(_judge_stage(plan, stage, tasks, collected) for stage, tasks in plan.stages)
+class Judge:
+    """Judges submissions of one run; remembers what known mistakes answer, so that it is worked out once."""
 
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
+        self._recognisers: dict[str, Recogniser] = {}
 
-def _judge_stage(plan: Plan, stage: Stage, tasks: tuple[Task, ...], collected: Collected) -> StageVerdict:
-    points = plan.points[stage.name]
-    if stage.function not in collected.loaded.functions:
-        return _missing(stage, tasks, points)
-    judged = [_judge_check(task, collected.replies[task.batch], points) for task in tasks]
-    checks = tuple(check for check, _ in judged)
-    score = round(sum(check.points for check in checks), 6)
-    passed = all(check.passed for check in checks)
-    first = next((index for index, check in enumerate(checks) if not check.passed), None)
-    status: StageStatus = "passed"
-    if first is not None:
-        status = "partial" if score > 0 else judged[first][1]
-    return StageVerdict(
-        name=stage.name,
-        status=status,
-        score=points if passed else score,
-        max_score=points,
-        bonus=stage.bonus,
-        message="" if first is None else checks[first].message,
-        remarks=evidence.remarks(tasks, collected.replies),
-        checks=checks,
-    )
+    def judge(self, collected: Collected) -> tuple[StageVerdict, ...]:
+        """Judge every stage of one submission."""
+        accepted = self._convention(collected)
+        return tuple(self._stage(stage, tasks, collected, accepted) for stage, tasks in self.plan.stages)
+
+    def _stage(
+        self, stage: Stage, tasks: tuple[Task, ...], collected: Collected, accepted: Convention | None
+    ) -> StageVerdict:
+        points = self.plan.points[stage.name]
+        if stage.function not in collected.loaded.functions:
+            return _missing(stage, tasks, points)
+        replies = [collected.replies[task.batch] for task in tasks]
+        remarks = evidence.remarks(tasks, collected.replies)
+        if accepted is not None and stage.name in _INTERCHANGEABLE:
+            checks = [_passed(task, points) for task in tasks]
+            return _verdict(stage, points, checks, "passed", remarks=(accepted.remark, *remarks))
+        judged = [_check(task, reply, points) for task, reply in zip(tasks, replies, strict=True)]
+        checks = [check for check, _ in judged]
+        status: StageStatus = next((reason for check, reason in judged if not check.passed), "passed")
+        if stage.name == follow.STAGE and collected.own_systems is not None:
+            checks = [
+                self._followed(check, task, reply, points, collected.own_systems)
+                for check, task, reply in zip(checks, tasks, replies, strict=True)
+            ]
+        if status == "passed":
+            return _verdict(stage, points, checks, status, remarks=remarks)
+        slip = self._recognise(stage, tasks, replies)
+        return _verdict(stage, points, checks, status, remarks=remarks, slip=slip, group=digest(tasks, replies))
+
+    def _followed(
+        self, check: CheckVerdict, task: Task, reply: Reply, points: float, own: dict[str, follow.Systems]
+    ) -> CheckVerdict:
+        """Pay the follow-through share for a step that solves the student's own equations."""
+        if check.passed or not isinstance(reply.outputs, Outputs) or reply.outputs.outcome.any():
+            return check
+        steps = [follow.array_of(reply.outputs, index) for index in range(len(task.cases))]
+        if not own[task.rung.name].solved_by(steps):
+            return check
+        return _check_verdict(
+            task,
+            points,
+            earned=self.plan.follow_through,
+            message=f"dx solves your own H dx = -b: the mistake is in an earlier function. {check.message}",
+            counterexample=check.counterexample,
+        )
+
+    def _recognise(self, stage: Stage, tasks: tuple[Task, ...], replies: list[Reply]) -> Slip | None:
+        outputs = [reply.outputs for reply in replies if isinstance(reply.outputs, Outputs)]
+        if len(outputs) != len(tasks):
+            return None
+        known = self._recognisers.get(stage.name)
+        if known is None:
+            calls = [call for task in tasks for case in task.cases for call in stage.calls(case)]
+            known = self._recognisers.setdefault(stage.name, Recogniser(stage, calls))
+        return known.recognise(evidence.joined(outputs))
+
+    def _convention(self, collected: Collected) -> Convention | None:
+        """Find one convention that explains f, J and Omega of every case, where one of them is not as expected."""
+        given: list[Rows] = []
+        expected: list[Rows] = []
+        stages = [self.plan.stage(name) for name in _INTERCHANGEABLE if self.plan.has(name)]
+        if len(stages) != len(_INTERCHANGEABLE):
+            return None
+        replies = {
+            stage.name: [collected.replies.get(task.batch) for task in self.plan.tasks_of(stage)] for stage in stages
+        }
+        if all(reply is not None and reply.passed for found in replies.values() for reply in found):
+            return None
+        for position, task in enumerate(self.plan.tasks_of(stages[0])):
+            parts = [replies[name][position] for name in _INTERCHANGEABLE]
+            outputs = [part.outputs for part in parts if part is not None and isinstance(part.outputs, Outputs)]
+            calls = follow.own_calls(task.cases, [outputs[1], outputs[2], outputs[0]]) if len(outputs) == 3 else None
+            if calls is None:
+                return None
+            given += [Rows(f, J, omega) for J, omega, f in calls]
+            expected += [Rows(*(stage.expected(*stage.calls(case)[0])[0] for stage in stages)) for case in task.cases]
+        return convention(given, expected)
 
 
 def _missing(stage: Stage, tasks: tuple[Task, ...], points: float) -> StageVerdict:
     message = f"{stage.function} is not defined in the submission."
+    return _verdict(stage, points, [_check_verdict(task, points, message=message) for task in tasks], "missing")
+
+
+def _verdict(
+    stage: Stage,
+    points: float,
+    checks: list[CheckVerdict],
+    status: StageStatus,
+    remarks: tuple[str, ...] = (),
+    slip: Slip | None = None,
+    group: str = "",
+) -> StageVerdict:
+    first = next((check for check in checks if not check.passed), None)
+    score = points if first is None else round(sum(check.points for check in checks), 6)
+    message = "" if first is None else first.message
+    if slip is not None:
+        message = f"{slip.name} {message}"
     return StageVerdict(
         name=stage.name,
-        status="missing",
-        score=0.0,
+        status="partial" if status != "passed" and score > 0 else status,
+        score=score,
         max_score=points,
         bonus=stage.bonus,
+        slip=None if slip is None else slip.identifier,
         message=message,
-        checks=tuple(
-            CheckVerdict(
-                name=task.rung.name,
-                passed=False,
-                points=0.0,
-                max_points=_points(task, points),
-                cases=len(task.cases),
-                message=message,
-            )
-            for task in tasks
-        ),
+        hint="" if slip is None else slip.hint,
+        remarks=remarks,
+        group=group,
+        checks=tuple(checks),
     )
 
 
-def _points(task: Task, points: float) -> float:
-    return round(points * task.share, 6)
+def _check_verdict(
+    task: Task, points: float, earned: float = 0.0, message: str = "", counterexample: dict[str, Any] | None = None
+) -> CheckVerdict:
+    maximum = round(points * task.share, 6)
+    return CheckVerdict(
+        name=task.rung.name,
+        passed=False,
+        points=round(maximum * earned, 6),
+        max_points=maximum,
+        cases=len(task.cases),
+        message=message,
+        counterexample=counterexample,
+    )
 
 
-def _judge_check(task: Task, reply: Reply, points: float) -> tuple[CheckVerdict, StageStatus]:
-    failure = reply.failure
-    maximum = _points(task, points)
-    verdict: dict[str, Any] = {"name": task.rung.name, "max_points": maximum, "cases": len(task.cases)}
-    if failure is not None or not isinstance(reply.outputs, Outputs):
-        assert failure is not None  # a reply without numbers has a reason
-        status = _STATUS_OF_FAILURE[failure.reason]
-        return CheckVerdict(**verdict, passed=False, points=0.0, message=failure.message), status
-    right = judged_cases(task, reply)
-    if right.all():
-        return CheckVerdict(**verdict, passed=True, points=maximum), "passed"
-    index = simplest(task, ~right)
+def _passed(task: Task, points: float) -> CheckVerdict:
+    maximum = round(points * task.share, 6)
+    return CheckVerdict(
+        name=task.rung.name, passed=True, points=maximum, max_points=maximum, cases=len(task.cases)
+    )
+
+
+def _check(task: Task, reply: Reply, points: float) -> tuple[CheckVerdict, StageStatus]:
+    if reply.failure is not None:
+        return _check_verdict(task, points, message=reply.failure.message), _STATUS_OF_FAILURE[reply.failure.reason]
+    if reply.passed:
+        return _passed(task, points), "passed"
+    index = simplest(task, ~reply.right)
     outcome, message = evidence.why(task, index, reply)
-    return (
-        CheckVerdict(
-            **verdict,
-            passed=False,
-            points=0.0,
-            message=message,
-            counterexample=evidence.counterexample(task, index, reply),
-        ),
-        _STATUS_OF_OUTCOME[outcome],
-    )
-
-
-def judged_cases(task: Task, reply: Reply) -> NDArray[np.bool_]:
-    """Say for each case whether it is right: every call returned numbers, and they are judged right."""
-    assert isinstance(reply.outputs, Outputs)
-    again = reply.again if isinstance(reply.again, Outputs) else None
-    right = task.stage.judge(task.prepared, reply.outputs, again)
-    if reply.outputs.outcome.any():
-        clean = np.logical_and.reduceat(reply.outputs.outcome == Outcome.OK, evidence.first_calls(task))
-        right = right & clean
-    return right
+    shown = evidence.counterexample(task, index, reply)
+    return _check_verdict(task, points, message=message, counterexample=shown), _STATUS_OF_OUTCOME[outcome]
 
 
 def simplest(task: Task, chosen: NDArray[np.bool_]) -> int:

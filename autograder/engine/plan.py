@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from assignment.posegraph import PoseGraph
 from autograder.engine.corpus import Corpus
@@ -37,6 +38,12 @@ class Task:
         return self.stage.shares[self.rung.name]
 
     @cached_property
+    def first_calls(self) -> NDArray[np.int64]:
+        """For each case the number of its first call in the batch."""
+        counts = np.array([len(self.stage.calls(case)) for case in self.cases])
+        return np.asarray(np.cumsum(counts) - counts)
+
+    @cached_property
     def prepared(self) -> Any:
         """What the verdict needs, worked out at the first use."""
         return self.stage.prepare(self.cases)
@@ -48,6 +55,7 @@ class Plan:
 
     tasks: tuple[Task, ...]
     points: Mapping[str, float]
+    follow_through: float
     corpus: Corpus
     inputs: bytes
     objects: Mapping[PoseGraph, int] = field(repr=False)
@@ -60,12 +68,30 @@ class Plan:
             grouped.setdefault(task.stage.name, []).append(task)
         return tuple((tasks[0].stage, tuple(tasks)) for tasks in grouped.values())
 
+    def stage(self, name: str) -> Stage:
+        """Return a stage of this run by its name."""
+        return next(stage for stage, _ in self.stages if stage.name == name)
+
+    def has(self, name: str) -> bool:
+        """Whether the run has a stage of this name."""
+        return any(stage.name == name for stage, _ in self.stages)
+
+    def tasks_of(self, stage: Stage) -> tuple[Task, ...]:
+        """Return the checks of a stage."""
+        return next(tasks for each, tasks in self.stages if each is stage)
+
+    def batch_of(self, stage: str, rung: str) -> int:
+        """Return the number of the batch of one check; -1 where the run has no such check."""
+        return next((task.batch for task in self.tasks if (task.stage.name, task.rung.name) == (stage, rung)), -1)
+
     def batch(self, stage: Stage, calls: Sequence[Case]) -> frames.Batch:
         """Make a batch of calls that can be sent as it is; graphs of the corpus go by number."""
         return _batch(stage, calls, self.objects)
 
 
-def make_plan(stages: Sequence[Stage], points: Mapping[str, float], corpus: Corpus) -> Plan:
+def make_plan(
+    stages: Sequence[Stage], points: Mapping[str, float], corpus: Corpus, follow_through: float = 0.5
+) -> Plan:
     """Lay out every call of a run."""
     tasks: list[Task] = []
     batches: list[frames.Batch] = []
@@ -81,7 +107,7 @@ def make_plan(stages: Sequence[Stage], points: Mapping[str, float], corpus: Corp
             tasks.append(Task(stage, rung, cases, len(batches)))
             batches.append(_batch(stage, calls, objects))
     inputs = frames.encode_inputs(frames.Inputs(objects=[graph_data(graph) for graph in objects], batches=batches))
-    return Plan(tuple(tasks), points, corpus, inputs, objects)
+    return Plan(tuple(tasks), points, follow_through, corpus, inputs, objects)
 
 
 def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[PoseGraph, int]) -> frames.Batch:

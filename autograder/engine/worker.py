@@ -13,7 +13,7 @@ import msgspec
 
 from autograder.engine.collect import collect
 from autograder.engine.corpus import load_corpus
-from autograder.engine.judge import judge
+from autograder.engine.judge import Judge
 from autograder.engine.plan import Plan, make_plan
 from autograder.errors import AutograderError
 from autograder.sandbox.frames import Source
@@ -32,10 +32,11 @@ class Orders(msgspec.Struct, frozen=True):
     memory_mib: int
     output_mib: int
     allow_unconfined: bool
+    follow_through: float
 
     def plan(self) -> Plan:
         """Lay out the run."""
-        return make_plan([stage(name) for name in self.stages], self.points, load_corpus(self.corpus))
+        return make_plan([stage(name) for name in self.stages], self.points, load_corpus(self.corpus), self.follow_through)
 
     def limits(self) -> Limits:
         """Return the limits of a child."""
@@ -88,19 +89,20 @@ def main(connection: Connection, orders: bytes) -> None:
         except AutograderError as error:
             send(Trouble(str(error), fatal=True))
             return
+        judge = Judge(plan)
         with sandbox:
             send(Ready(sandbox.confinement.level, sandbox.confinement.detail))
             while True:
                 source = msgspec.msgpack.decode(connection.recv_bytes(), type=Source)
-                send(_grade(plan, sandbox, source))
+                send(_grade(judge, sandbox, source))
 
 
-def _grade(plan: Plan, sandbox: Sandbox, source: Source) -> Message:
+def _grade(judge: Judge, sandbox: Sandbox, source: Source) -> Message:
     began = time.perf_counter()
     try:
         with sandbox.open(source) as session:
-            collected = collect(session, plan)
-        stages = judge(plan, collected)
+            collected = collect(session, judge.plan)
+        stages = judge.judge(collected)
     except Exception as error:
         if os.environ.get("AUTOGRADER_DEBUG"):
             raise

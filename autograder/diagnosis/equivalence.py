@@ -1,0 +1,80 @@
+"""Equivalent conventions: rows in another order, rows with the sign turned, the same least squares.
+
+Judged for all cases at once: on every case there must be one signed permutation of the rows that
+turns the student's f, J and Omega into the expected ones.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from autograder.stages.base import Array
+
+CLOSE = 1e-7
+
+
+@dataclass(frozen=True)
+class Convention:
+    """Which liberties a student took, over all cases."""
+
+    reordered: bool
+    turned: bool
+
+    @property
+    def remark(self) -> str:
+        """Say so, kindly."""
+        what = {
+            (True, False): "the rows stand in another order than edges, then priors",
+            (False, True): "some rows of f and J have the opposite sign",
+            (True, True): "the rows stand in another order, and some have the opposite sign",
+        }[(self.reordered, self.turned)]
+        return f"f, J and Omega fit together but {what}: an equivalent convention, accepted."
+
+
+@dataclass(frozen=True)
+class Rows:
+    """f, J and Omega of one case."""
+
+    f: Array
+    J: Array
+    omega: Array
+
+
+def convention(given: list[Rows], expected: list[Rows]) -> Convention | None:
+    """Find the convention that explains all cases; None where one case has none, or nothing differs."""
+    reordered = turned = False
+    for one, other in zip(given, expected, strict=True):
+        match = _match(one, other)
+        if match is None:
+            return None
+        order, signs = match
+        reordered |= bool((order != np.arange(len(order))).any())
+        turned |= bool((signs < 0).any())
+    return Convention(reordered, turned) if reordered or turned else None
+
+
+def _match(given: Rows, expected: Rows) -> tuple[Array, Array] | None:
+    """Pair every row of the student's with one of the expected rows, up to its sign."""
+    m = len(expected.f)
+    weights, wanted = np.diag(given.omega), np.diag(expected.omega)
+    beside = given.omega - np.diag(weights)
+    if not np.abs(beside).max(initial=0.0) <= CLOSE * np.abs(wanted).max(initial=0.0):
+        return None
+    mine = np.column_stack([given.J, given.f])
+    right = np.column_stack([expected.J, expected.f])
+    allowed = CLOSE * (1.0 + np.abs(right).max(axis=1))
+    close_weights = np.abs(weights[:, None] - wanted) <= CLOSE * wanted
+    order, signs = np.full(m, -1), np.ones(m)
+    free = np.ones(m, dtype=bool)
+    for row in range(m):
+        plus = (np.abs(mine[row] - right) <= allowed[:, None]).all(axis=1)
+        minus = (np.abs(mine[row] + right) <= allowed[:, None]).all(axis=1)
+        fitting = (plus | minus) & close_weights[row] & free
+        if not fitting.any():
+            return None
+        # An unmoved row is preferred, so that equal rows are not called reordered.
+        partner = row if fitting[row] else int(np.argmax(fitting))
+        order[row], signs[row], free[partner] = partner, 1.0 if plus[partner] else -1.0, False
+    return order, signs

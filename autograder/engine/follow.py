@@ -1,0 +1,91 @@
+"""Follow-through: a step that is wrong only because an earlier function is wrong solves the student's own equations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from autograder.problems.cases import Case
+from autograder.problems.graphs import information
+from autograder.sandbox.host import Outputs
+from autograder.stages.base import Array, fits
+from autograder.stages.gauss_newton_step import BACKWARD_ERROR
+
+STAGE = "gauss_newton_step"
+INGREDIENTS = ("jacobian", "information_matrix", "residual")  # in the order of the arguments of the last
+LAST = "normal_equations"
+EARLIER = (*INGREDIENTS, LAST)
+
+
+@dataclass(frozen=True)
+class Systems:
+    """The student's own H and b on the cases of one rung; every H is positive definite with the true pattern."""
+
+    H: list[Array]
+    b: list[Array]
+
+    def solved_by(self, steps: Sequence[Array]) -> bool:
+        """Whether every dx solves its own H dx = -b, by backward error."""
+        return all(_solves(H, b, dx.ravel()) for H, b, dx in zip(self.H, self.b, steps, strict=True))
+
+
+def array_of(outputs: Outputs, number: int) -> Array:
+    """Return one returned array in the shape in which it came; nan in a shape that holds no numbers."""
+    values = outputs.data[outputs.offsets[number] : outputs.offsets[number + 1]]
+    shape = outputs.shapes[number]
+    return values.reshape(shape) if values.size == np.prod(shape, dtype=np.int64) else np.full(1, np.nan)
+
+
+def own_calls(cases: Sequence[Case], ingredients: Sequence[Outputs]) -> list[Case] | None:
+    """Return (J, Omega, f) of the student for every case; None where one is not numbers of the right shape."""
+    if len(ingredients) != len(INGREDIENTS) or any(outputs.outcome.any() for outputs in ingredients):
+        return None
+    calls = []
+    for index, (_, graph) in enumerate(cases):
+        m, n = graph.n_factors, graph.n_poses
+        J, omega, f = (array_of(outputs, index) for outputs in ingredients)
+        if J.shape != (m, n) or omega.shape != (m, m) or not fits(f.shape, (m,)):
+            return None
+        if not all(np.isfinite(array).all() for array in (J, omega, f)):
+            return None
+        calls.append((J, omega, f.ravel()))
+    return calls
+
+
+def own_systems(cases: Sequence[Case], outputs: Outputs) -> Systems | None:
+    """Read the student's H and b; None where an H is not positive definite with the true pattern."""
+    if outputs.outcome.any():
+        return None
+    systems = Systems([], [])
+    for index, (_, graph) in enumerate(cases):
+        H, b = array_of(outputs, 2 * index), array_of(outputs, 2 * index + 1)
+        if not _sound(H, information(graph) != 0) or not fits(b.shape, (graph.n_poses,)) or not np.isfinite(b).all():
+            return None
+        systems.H.append(H)
+        systems.b.append(b.ravel())
+    return systems
+
+
+def _sound(H: Array, pattern: NDArray[np.bool_]) -> bool:
+    if H.shape != pattern.shape or not np.isfinite(H).all():
+        return False
+    size = np.abs(H).max(initial=0.0)
+    if not np.abs(H - H.T).max(initial=0.0) <= 1e-9 * size:
+        return False
+    if not np.array_equal(np.abs(H) > 1e-12 * size, pattern):
+        return False
+    try:
+        np.linalg.cholesky(H)
+    except np.linalg.LinAlgError:
+        return False
+    return True
+
+
+def _solves(H: Array, b: Array, dx: Array) -> bool:
+    if dx.shape != b.shape or not np.isfinite(dx).all():
+        return False
+    scale = np.abs(H).sum(axis=1).max() * np.abs(dx).max() + np.abs(b).max()
+    return bool(np.abs(H @ dx + b).max() <= BACKWARD_ERROR * scale + 1e-12)
