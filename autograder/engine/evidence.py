@@ -17,6 +17,7 @@ from autograder.sandbox.frames import Kind, Outcome
 from autograder.sandbox.host import Outputs
 from autograder.stages.base import Array, fits
 
+
 @dataclass(frozen=True)
 class Joined:
     """All answers of one stage."""

@@ -176,14 +176,13 @@ def _check_verdict(
 
 def _passed(task: Task, points: float) -> CheckVerdict:
     maximum = round(points * task.share, 6)
-    return CheckVerdict(
-        name=task.rung.name, passed=True, points=maximum, max_points=maximum, cases=len(task.cases)
-    )
+    return CheckVerdict(name=task.rung.name, passed=True, points=maximum, max_points=maximum, cases=len(task.cases))
 
 
 def _check(task: Task, reply: Reply, points: float) -> tuple[CheckVerdict, StageStatus]:
     if reply.failure is not None:
-        return _check_verdict(task, points, message=reply.failure.message), _STATUS_OF_FAILURE[reply.failure.reason]
+        message = f"While {task.stage.function} ran, {reply.failure.message}."
+        return _check_verdict(task, points, message=message), _STATUS_OF_FAILURE[reply.failure.reason]
     if reply.passed:
         return _passed(task, points), "passed"
     index = simplest(task, ~reply.right)

@@ -36,7 +36,9 @@ class Orders(msgspec.Struct, frozen=True):
 
     def plan(self) -> Plan:
         """Lay out the run."""
-        return make_plan([stage(name) for name in self.stages], self.points, load_corpus(self.corpus), self.follow_through)
+        return make_plan(
+            [stage(name) for name in self.stages], self.points, load_corpus(self.corpus), self.follow_through
+        )
 
     def limits(self) -> Limits:
         """Return the limits of a child."""

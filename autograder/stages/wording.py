@@ -21,14 +21,15 @@ def number(value: float) -> str:
 
 
 def vector(values: np.ndarray) -> str:
-    """Print numbers in square brackets; a long vector is cut in the middle.
+    """Print numbers in square brackets; a long vector is cut in the middle, and rounding noise is 0.
 
     Examples
     --------
-    >>> vector(np.array([1.0, -0.0, 2.5]))
-    '[1 0 2.5]'
+    >>> vector(np.array([1.0, -0.0, 2.5, 1e-16]))
+    '[1 0 2.5 0]'
     """
-    shown = [number(value) for value in values.ravel().tolist()]
+    noise = 1e-12 * np.abs(values).max(initial=0.0)
+    shown = [number(0.0 if abs(value) <= noise else value) for value in values.ravel().tolist()]
     if len(shown) > 8:
         shown = [*shown[:4], "...", *shown[-2:]]
     return "[" + " ".join(shown) + "]"
