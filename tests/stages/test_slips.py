@@ -26,6 +26,11 @@ BY_NATURE = {
     "step_rounded_to_4_decimals": 1e-5,
     "stops_at_four_decimals": 1e-5,
     "step_in_single_precision": 1e-8,
+    "residual_in_single_precision": 1e-8,
+    "information_in_single_precision": 1e-8,
+    "normal_equations_in_single_precision": 1e-8,
+    "single_precision_leaves_a_rest": 1e-8,
+    "difference_step_too_small": 1e-7,
     "normal_equations_rounded": 1e-6,
     "h_regularised": 1e-5,
 }

@@ -36,8 +36,8 @@ def normal_equations(J, omega, f):
     b = np.zeros(n)
     for a in range(n):
         used = [r for r in range(m) if J[r][a]]
-        for c in range(n):
-            H[a, c] = float(sum((J[r][a] * w[r] * J[r][c] for r in used if J[r][c]), Fraction(0)))
+        for c in range(a, n):
+            H[a, c] = H[c, a] = float(sum((J[r][a] * w[r] * J[r][c] for r in used if J[r][c]), Fraction(0)))
         b[a] = float(sum((J[r][a] * w[r] * f[r] for r in used), Fraction(0)))
     return H, b
 

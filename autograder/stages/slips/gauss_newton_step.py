@@ -224,12 +224,17 @@ def loops_left_out(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
 
 @slip("S24")
 def step_in_single_precision(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The equations are solved in single precision.
+    """The whole step is worked out in single precision.
 
     Half of the digits are gone, and an uneven H loses more; what type do your arrays have?
     """
-    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph))
-    return np.linalg.solve(H.astype(np.float32), -b.astype(np.float32))
+    J, single = right.jacobian(x, graph).astype(np.float32), x.astype(np.float32)
+    i, j = graph.edges.T
+    between = single[i] + graph.measurements.astype(np.float32) - single[j]
+    f = np.concatenate([between, single[graph.priors] - graph.prior_means.astype(np.float32)])
+    variances = np.concatenate([graph.edge_variances, graph.prior_variances]).astype(np.float32)
+    H, b = right.normal_equations(J, np.diag(1.0 / variances), f)
+    return np.linalg.solve(H, -b)
 
 
 @slip("T1")

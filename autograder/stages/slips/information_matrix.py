@@ -252,4 +252,14 @@ def information_with_a_row_for_every_pose(graph: PoseGraph) -> np.ndarray:
     return right.information_matrix(graph)[: graph.n_poses, : graph.n_poses]
 
 
+@slip("S24")
+def information_in_single_precision(graph: PoseGraph) -> np.ndarray:
+    """The weights are worked out in single precision.
+
+    The last decimals of a weight seem to matter little, but they come back in H; what type do your arrays have?
+    """
+    variances = np.concatenate([graph.edge_variances, graph.prior_variances]).astype(np.float32)
+    return np.diag(1.0 / variances)
+
+
 SLIPS = slip.entries

@@ -270,4 +270,13 @@ def normal_equations_rounded(J: np.ndarray, omega: np.ndarray, f: np.ndarray) ->
     return np.round(H, 4), np.round(b, 4)
 
 
+@slip("S24", minimum_poses=1)
+def normal_equations_in_single_precision(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
+    """H and b are worked out in single precision.
+
+    Sums of large and small weights need every digit; what type do your arrays have?
+    """
+    return right.normal_equations(J.astype(np.float32), omega.astype(np.float32), f.astype(np.float32))
+
+
 SLIPS = slip.entries

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from autograder.stages.slips.catalogue import Catalogue
+from autograder.stages.slips.residual_digits import LOST_DIGITS
 from reference_solution import slam1d as right
 
 if TYPE_CHECKING:
@@ -193,33 +194,6 @@ def residual_whitened(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return f
 
 
-@slip("R14")
-def residual_rounded_to_1_decimal(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The residual is rounded to one decimal.
-
-    Round what you print, never what you go on calculating with.
-    """
-    return np.round(right.residual(x, graph), 1)
-
-
-@slip("R15")
-def residual_rounded_to_4_decimals(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The residual is rounded to four decimals.
-
-    Four decimals look like enough on paper; a computer keeps sixteen, and the steps that follow need them.
-    """
-    return np.round(right.residual(x, graph), 4)
-
-
-@slip()
-def residual_in_whole_numbers(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The residual is stored in an array of integers, which cuts the decimals off.
-
-    An array keeps the type it was made with; which type does yours have, and what happens to 0.5 in it?
-    """
-    return right.residual(x, graph).astype(int)
-
-
 @slip("R17")
 def residual_always_at_the_start(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The residual is that of dead reckoning, whatever state is given.
@@ -297,4 +271,4 @@ def residual_of_six_rows(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return np.pad(right.residual(x, graph), (0, 6))[:6]
 
 
-SLIPS = slip.entries
+SLIPS = (*slip.entries, *LOST_DIGITS)
