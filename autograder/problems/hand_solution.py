@@ -103,14 +103,15 @@ def _force(variant: Variant, solved: LoopSolution) -> str:
         left = " + ".join(f"({_whole(entry, scale)}) q{_low(k)}" for k, entry in enumerate(row))
         lines.append(f"    {left} = {whole[loop]}")
     if len(names) == 2:
-        (a, b), (_, d) = [[_whole(entry, scale) for entry in row] for row in solved.matrix]
-        det = a * d - b * b
+        (first, shared_variance), (_, second) = [[_whole(entry, scale) for entry in row] for row in solved.matrix]
+        det = first * second - shared_variance * shared_variance
+        top = second * whole[0] - shared_variance * whole[1], first * whole[1] - shared_variance * whole[0]
         lines += [
             "",
-            f"Determinant: ({a})({d}) − ({b})² = {det}.",
+            f"Determinant: ({first})({second}) − ({shared_variance})² = {det}.",
             "",
-            f"- q₁ = (({d})({whole[0]}) − ({b})({whole[1]})) / {det} = {d * whole[0] - b * whole[1]} / {det}",
-            f"- q₂ = (({a})({whole[1]}) − ({b})({whole[0]})) / {det} = {a * whole[1] - b * whole[0]} / {det}",
+            f"- q₁ = (({second})({whole[0]}) − ({shared_variance})({whole[1]})) / {det} = {top[0]} / {det}",
+            f"- q₂ = (({first})({whole[1]}) − ({shared_variance})({whole[0]})) / {det} = {top[1]} / {det}",
         ]
     values = ", ".join(f"q{_low(k)} = {decimal(q)}" for k, q in enumerate(solved.forces))
     return "\n".join([*lines, "", f"So **{values}** (per metre)."])

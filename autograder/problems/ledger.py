@@ -9,9 +9,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
 import re
-import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -22,6 +20,7 @@ from typing import Any
 from autograder.errors import UsageError
 from autograder.problems.exact import ExactGraph, decimal
 from autograder.problems.family import Family
+from autograder.problems.replacing import replace_file
 from autograder.problems.roster import normal_id
 from autograder.problems.secret import Secret
 from autograder.problems.variants import Variant, data_fields, draw_variant, published
@@ -153,24 +152,8 @@ def write_ledger(path: Path, ledger: Ledger) -> bool:
         return False
     if not text.startswith(old):
         raise UsageError(f"Ledger {path} holds lines that would be lost; nothing was written.")
-    replace_file(path, text)
+    replace_file(path, text, lasting=True)
     return True
-
-
-def replace_file(path: Path, data: bytes) -> None:
-    """Write a file so that it is there whole or not at all, also when the power fails."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        Path(name).chmod(0o600)
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
 
 
 def _lines(variants: Iterable[Variant]) -> Iterator[str]:
@@ -181,7 +164,6 @@ def _lines(variants: Iterable[Variant]) -> Iterator[str]:
         fields = data_fields(variant.exact) | {
             "x1": [decimal(value) for value in variant.x1],
             "truth": [decimal(value) for value in variant.truth],
-            "choices": list(variant.choices),
             "landmarks": list(variant.landmarks),
         }
         data = json.dumps(fields, separators=(",", ":"))
@@ -205,9 +187,9 @@ def _variant(row: list[str]) -> Variant:
         prior_variances=_fractions(fields["prior_v"]),
     )
     x1, truth = _fractions(fields["x1"]), _fractions(fields["truth"])
-    choices, landmarks = (tuple(map(_integer, fields[name])) for name in ("choices", "landmarks"))
+    landmarks = tuple(map(_integer, fields["landmarks"]))
     exact.posegraph()  # holds every rule of the model
-    variant = Variant(family, student_id, exact, x1, truth, choices, landmarks)
+    variant = Variant(family, student_id, exact, x1, truth, landmarks)
     if variant.identifier != identifier:
         raise ValueError(f"the data are those of {variant.identifier}, not of {identifier}")
     if len(x1) != exact.n_poses or len(truth) != exact.n_poses or any(exact.gradient(x1)):

@@ -18,6 +18,7 @@ from functools import cache, cached_property
 import numpy as np
 
 from assignment.posegraph import PoseGraph
+from autograder.problems.conclusion import Choice, choices
 from autograder.problems.exact import ExactGraph, decimal, floats
 from autograder.problems.families import family as family_of
 from autograder.problems.families.worked_example import worked_example
@@ -27,7 +28,6 @@ from autograder.problems.secret import Secret
 
 __all__ = ["Variant", "choose_family", "draw_variant"]
 
-CHOICES = 6  # of the multiple-choice question: the right one and five wrong beliefs
 ITERATES = 4
 MOST_REDRAWS = 10_000
 
@@ -48,8 +48,6 @@ class Variant:
         The least-squares state: every iterate but the first [m].
     truth : tuple of Fraction
         Where the robot really was [m].
-    choices : tuple of int
-        Order in which the choices of the multiple-choice question are shown.
     landmarks : tuple of int
         Unknowns that are landmarks.
     """
@@ -59,7 +57,6 @@ class Variant:
     exact: ExactGraph
     x1: tuple[Fraction, ...]
     truth: tuple[Fraction, ...]
-    choices: tuple[int, ...]
     landmarks: tuple[int, ...] = ()
 
     @cached_property
@@ -98,6 +95,11 @@ class Variant:
         if self.fingerprint == published().fingerprint:
             return "worked-example"
         return f"{self.family.partition(':')[0]}-{self.fingerprint}"
+
+    @property
+    def choices(self) -> list[Choice]:
+        """The choices of question 3 in this variant's order."""
+        return choices(self.identifier)
 
     @property
     def problem(self) -> Problem:
@@ -146,10 +148,9 @@ def draw_variant(
         Where no draw is accepted.
     """
     stream = secret.stream("variant", term, student_id, family.label)
-    order = secret.stream("choices", term, student_id, family.label).order(CHOICES)
     for _ in range(MOST_REDRAWS):
         draw = family.draw(stream)
-        variant = Variant(family.label, student_id, draw.graph, draw.x1, draw.truth, order, family.landmarks)
+        variant = Variant(family.label, student_id, draw.graph, draw.x1, draw.truth, family.landmarks)
         if not family.personal:
             return variant
         if variant.marks & taken or variant.marks & published().marks:
@@ -167,7 +168,7 @@ def draw_variant(
 def published() -> Variant:
     """Return the worked example: its numbers are printed everywhere, so they are nobody's own."""
     exact = ExactGraph.of(worked_example())
-    return Variant("E", "", exact, exact.solution(), exact.solution(), ())
+    return Variant("E", "", exact, exact.solution(), exact.solution())
 
 
 def choose_family(secret: Secret, term: str, student_id: str, mix: Mapping[str, int]) -> Family:
