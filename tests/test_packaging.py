@@ -16,6 +16,7 @@ import pytest
 from packaging.requirements import Requirement
 
 ROOT = Path(__file__).resolve().parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 PACKAGES = ("assignment", "autograder", "reference_solution")
 
 
@@ -134,16 +135,34 @@ def test_checkout_and_wheel_draw_the_same_corpus(installed: Path, tmp_path: Path
     assert there == here
 
 
+@pytest.fixture(scope="session")
+def demo(installed: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """Run `autograder demo` from the wheel alone, in an empty home; return where, and what it said."""
+    place = tmp_path_factory.mktemp("demo")
+    (place / "home").mkdir()
+    return place, _run(installed / "autograder", "demo", cwd=place, home=place / "home").stdout
+
+
 @pytest.mark.slow
-def test_the_demo_runs_outside_the_checkout(installed: Path, tmp_path: Path) -> None:
-    """`autograder demo` grades its class from the wheel alone, in an empty home, and what it says it wrote is there."""
-    (tmp_path / "home").mkdir()
-    said = _run(installed / "autograder", "demo", cwd=tmp_path, home=tmp_path / "home").stdout
-    named = [tmp_path / word for word in re.findall(r"^ +(slam1d-demo/\S+)", said, flags=re.MULTILINE)]
-    assert named
+def test_the_demo_runs_outside_the_checkout(demo: tuple[Path, str]) -> None:
+    """It grades its class, what it says it wrote is there, and nothing else is."""
+    place, said = demo
+    named = [place / word for word in re.findall(r"^ +(slam1d-demo/\S+)", said, flags=re.MULTILINE)]
+    assert len(named) >= 7
     assert all(path.exists() for path in named), named
-    results = list((tmp_path / "slam1d-demo" / "results").glob("*.json"))
-    rows = (tmp_path / "slam1d-demo" / "grades.csv").read_text(encoding="utf-8").splitlines()
+    results = list((place / "slam1d-demo" / "results").glob("*.json"))
+    rows = (place / "slam1d-demo" / "grades.csv").read_text(encoding="utf-8").splitlines()
     assert len(results) == len(rows) - 1 >= 14
-    assert not list((tmp_path / "home").iterdir())
-    assert {path.name for path in tmp_path.iterdir()} == {"home", "slam1d-demo"}
+    assert {path.name for path in place.iterdir()} == {"home", "slam1d-demo"}
+    assert not list((place / "home").iterdir())
+
+
+@pytest.mark.slow
+def test_the_readme_shows_a_failing_listing_as_it_is_printed(demo: tuple[Path, str]) -> None:
+    """The listing of the front page is what the demo prints, character by character."""
+    _, said = demo
+    (listing,) = re.findall(r"^```text\n(\d\. A wrong answer.*?)```", README, flags=re.MULTILINE | re.DOTALL)
+    begin = said.find(listing.splitlines()[0])
+    assert said[begin:].startswith(listing), (
+        f"README.md shows another listing than:\n{said[begin:][: 2 * len(listing)]}"
+    )

@@ -1,0 +1,60 @@
+"""The front door tells the truth: its picture, its commands, its points and its links are those of the code."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from pathlib import Path
+
+import click
+import pytest
+
+from assignment.posegraph import PoseGraph
+from autograder.cli import cli
+from autograder.course import DEFAULT_POINTS
+
+ROOT = Path(__file__).resolve().parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+COMMANDS = re.findall(r"^(autograder .*?)(?: +#.*)?$", README, flags=re.MULTILINE)
+
+
+def test_the_picture_is_the_one_that_students_see() -> None:
+    """The worked example is drawn as in the docstring of PoseGraph, and on the first screen."""
+    picture = README.split("```text\n")[1].split("```")[0]
+    drawn = textwrap.dedent((PoseGraph.__doc__ or "").split("::\n\n", 1)[1].split("\n\n", 1)[0])
+    assert textwrap.dedent(picture).strip("\n") == drawn.strip("\n")
+    assert README.index(picture) < 200
+
+
+def test_the_two_commands_stand_on_the_first_screen() -> None:
+    """`make demo` and `make test` come within the first 25 lines."""
+    first = README.splitlines()[:25]
+    assert sum(line.startswith(("make demo", "make test")) for line in first) == 2
+
+
+@pytest.mark.parametrize("line", COMMANDS)
+def test_a_command_that_is_shown_exists(line: str) -> None:
+    """Its name and every option of it are known."""
+    name, *arguments = line.split()[1:]
+    command = cli.get_command(click.Context(cli), name)
+    assert command is not None
+    known = {option for parameter in command.params for option in parameter.opts}
+    assert {argument for argument in arguments if argument.startswith("-")} <= known
+
+
+def test_every_link_leads_somewhere() -> None:
+    """A link is a file of ours or a heading of this page."""
+    headings = {f"#{title.lower().replace(' ', '-')}" for title in re.findall(r"^#+ (.*)$", README, flags=re.MULTILINE)}
+    links = re.findall(r"\]\(([^)]+)\)", README)
+    assert len(links) > 5
+    assert [link for link in links if link not in headings and not (ROOT / link).exists()] == []
+
+
+def test_the_points_are_those_of_the_course() -> None:
+    """Each function's points, and their sum, are the defaults."""
+    shown = {
+        name: float(points) for name, points in re.findall(r"^\| `(\w+)\(.*\| (\d+) \|$", README, flags=re.MULTILINE)
+    }
+    assert shown | {"second_step": 10.0} == dict(DEFAULT_POINTS)
+    assert f"the maximum is {sum(DEFAULT_POINTS.values()):g}" in README
+    assert "gives 10 more points (`second_step`)" in README
