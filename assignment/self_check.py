@@ -326,12 +326,17 @@ def solves(s: Student, graph: Any, x: np.ndarray) -> None:
         raise Wrong(f"dx = {vector(dx)} leaves H dx + b = {number(left[row])} in row {row}, where it should be 0.")
 
 
-def lowest(s: Student, graph: Any, x: np.ndarray) -> None:
-    """The cost falls, and after the step no pose can be moved to make it lower."""
-    point = x + s.step(x, graph)
-    before, after = s.cost(x, graph), s.cost(point, graph)
+def falls(s: Student, graph: Any, x: np.ndarray) -> None:
+    """The step makes the cost lower."""
+    before, after = s.cost(x, graph), s.cost(x + s.step(x, graph), graph)
     if after > before + 1e-9 * (1 + before):
         raise Wrong(f"the cost grew from {number(before)} to {number(after)}.")
+
+
+def lowest(s: Student, graph: Any, x: np.ndarray) -> None:
+    """After one step no pose can be moved to make the cost lower."""
+    point = x + s.step(x, graph)
+    after = s.cost(point, graph)
     for pose, move in enumerate(1e-3 * np.eye(len(x))):
         for sign in (1, -1):
             if s.cost(point + sign * move, graph) < after - 1e-10 * (1 + after):
@@ -412,8 +417,8 @@ STAGES: dict[str, tuple[Callable[[Student, Any, np.ndarray], None], ...]] = {
     "jacobian": (row_sums, derivative),
     "information_matrix": (weights, independent),
     "normal_equations": (any_system, own_system),
-    "gauss_newton_step": (solves, lowest),
-    "second_step": (second_vanishes, data_matter),
+    "gauss_newton_step": (solves, falls),
+    "second_step": (lowest, second_vanishes, data_matter),
     "iterates": (follow,),
     "sparsity_pattern": (patterns,),
     "range_factor": (ranges,),

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import inspect
+import json
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 from autograder.problems.problem import Problem
-from autograder.render import figure
+from autograder.render import figure, landmarks
 from autograder.render.notebook import render_notebook
-from autograder.render.stub import CORE, graph_source, reference_source, start_source, stub_module, stubs
+from autograder.render.stub import reference_source, stub_module, stubs
 from autograder.render.template import fill
+from autograder.render.values import values
 
 __all__ = ["PROVIDED", "render_assignment", "render_folder", "write_files"]
 
@@ -17,40 +21,67 @@ PROVIDED = ("posegraph.py", "self_check.py")
 
 
 def render_assignment(problem: Problem) -> dict[str, str]:
-    """Render the files that depend on the problem.
+    """Render the files that depend on the problem, and the pictures of the handout.
 
     Returns
     -------
     dict
         File name -> text.
     """
-    all_stubs = stubs(reference_source())
-    values = {
-        "graph": graph_source(problem.graph),
-        "start": start_source(problem.start),
-        "stubs": {name: all_stubs[name] for name in CORE},
-    }
+    words = values(problem)
+    pictures = _pictures(problem)
+    notebooks = {**words, **_carried()}
+    told = {f"{name.removesuffix('.svg')}_text": _title(picture) for name, picture in pictures.items()}
     return {
         "slam1d.py": stub_module(problem),
-        "slam1d.ipynb": render_notebook("slam1d.ipynb.j2", **values),
-        "README.md": fill("README.md.j2", **values),
-        "pose_graph.svg": picture(problem),
+        "slam1d.ipynb": render_notebook("slam1d.ipynb.j2", **notebooks),
+        "explore.ipynb": render_notebook("explore.ipynb.j2", **notebooks),
+        "README.md": fill("README.md.j2", **words, **told),
+        **pictures,
     }
-
-
-def picture(problem: Problem) -> str:
-    """Draw the pose graph of a problem."""
-    graph = problem.graph
-    edges = [(i, j, u) for (i, j), u in zip(graph.edges.tolist(), graph.measurements.tolist(), strict=True)]
-    priors = list(zip(graph.priors.tolist(), graph.prior_means.tolist(), strict=True))
-    return figure.pose_graph(graph.n_poses, edges, priors)
 
 
 def render_folder(problem: Problem) -> dict[str, str]:
     """Render a complete folder for a student: the rendered files and the provided ones."""
-    assignment = resources.files("assignment")
-    provided = {name: assignment.joinpath(name).read_text(encoding="utf-8") for name in PROVIDED}
-    return {**provided, **render_assignment(problem)}
+    return {**{name: provided(name) for name in PROVIDED}, **render_assignment(problem)}
+
+
+def provided(name: str) -> str:
+    """Read a hand-written file of the assignment."""
+    return resources.files("assignment").joinpath(name).read_text(encoding="utf-8")
+
+
+def _carried() -> dict[str, Any]:
+    """Texts that the notebooks carry along, so that they work alone."""
+    return {
+        "posegraph": provided("posegraph.py"),
+        "self_check": provided("self_check.py").partition('\n\nif __name__ == "__main__"')[0] + "\n",
+        "figure": inspect.getsource(figure),
+        "corridor": inspect.getsource(landmarks.corridor),
+        "fill_in": inspect.getsource(landmarks.fill_in),
+        "stubs": stubs(reference_source()),
+    }
+
+
+def _pictures(problem: Problem) -> dict[str, str]:
+    graph = problem.graph
+    edges = [(i, j, u) for (i, j), u in zip(graph.edges.tolist(), graph.measurements.tolist(), strict=True)]
+    priors = list(zip(graph.priors.tolist(), graph.prior_means.tolist(), strict=True))
+    J, H = landmarks.patterns(landmarks.corridor())
+    times = json.loads(resources.files("reference_solution").joinpath("solve_times.json").read_text(encoding="utf-8"))
+    return {
+        "pose_graph.svg": figure.pose_graph(graph.n_poses, edges, priors),
+        "landmarks_J.svg": figure.spy(J, "J of a corridor with landmarks"),
+        "landmarks_H.svg": figure.spy(H, "H of a corridor with landmarks"),
+        "solve_times.svg": figure.curves("Time to solve H dx = -b", "poses", "time [s]", times, log_x=True),
+    }
+
+
+def _title(picture: str) -> str:
+    """Return title and description of a picture, as alternative text."""
+    title = picture.partition("<title>")[2].partition("</title>")[0]
+    description = picture.partition("<desc>")[2].partition("</desc>")[0]
+    return f"{title}. {description}"
 
 
 def write_files(files: dict[str, str], folder: Path) -> list[str]:

@@ -51,6 +51,9 @@ def build_notebook(text: str) -> nbformat.NotebookNode:
     [('title', '# Words'), ('sum', '1 + 1')]
     """
     before, *parts = _HEAD.split(text)
+    stray = [line for part in parts[2::3] for line in part.splitlines() if line.startswith("%% ")]
+    if stray:
+        raise ValueError(f"a head must read `%% kind name`, the name in small letters and dashes, got {stray[0]!r}")
     if before.strip():
         raise ValueError(f"a template must begin with a line `%% kind name`, got {before.strip()[:40]!r}")
     cells = [_cell(*part) for part in zip(parts[0::3], parts[1::3], parts[2::3], strict=True)]

@@ -1,0 +1,77 @@
+"""A corridor with landmarks, and what elimination does to a sparse matrix; the notebook shows these texts."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from assignment.posegraph import PoseGraph
+from autograder.render.facts import reference
+
+__all__ = ["corridor", "counts", "fill_in", "pairs_of", "patterns"]
+
+
+def corridor() -> PoseGraph:
+    """Build a walk of 100 poses past 20 landmarks, unknowns 100 to 119; each is seen from nearby poses only."""
+    walk = [(i, i + 1) for i in range(99)]
+    seen = [(pose, 100 + k) for pose in range(100) for k in range(20) if abs(pose - (5 * k + 2)) <= 10]
+    edges = np.array(walk + seen)
+    places = np.append(np.arange(100.0), 5.0 * np.arange(20) + 2)
+    measured = places[edges[:, 1]] - places[edges[:, 0]]
+    return PoseGraph(120, edges, measured, np.full(len(edges), 0.01), np.array([0]), np.zeros(1), np.full(1, 0.001))
+
+
+def fill_in(pairs: set[frozenset[int]], order: list[int]) -> int:
+    """Count the new pairs that come up when unknowns are eliminated in this order."""
+    neighbours: dict[int, set[int]] = {unknown: set() for unknown in order}
+    for a, b in map(tuple, pairs):
+        neighbours[a].add(b)
+        neighbours[b].add(a)
+    new = 0
+    for unknown in order:
+        near = neighbours.pop(unknown)
+        for a in near:
+            neighbours[a].discard(unknown)
+            missing = near - neighbours[a] - {a}
+            neighbours[a] |= missing
+            new += len(missing)
+    return new // 2
+
+
+def pairs_of(graph: PoseGraph) -> set[frozenset[int]]:
+    """Return the pairs of unknowns that share a factor."""
+    return {frozenset(edge) for edge in graph.edges.tolist()}
+
+
+def patterns(graph: PoseGraph) -> tuple[list[list[int]], list[list[int]]]:
+    """Return where J and H have entries, as rows of 0 and 1."""
+    J, H = reference().sparsity_pattern(graph)
+    return J.astype(int).tolist(), H.astype(int).tolist()
+
+
+def counts() -> dict[str, int]:
+    """Count what the handout tells about the corridor.
+
+    Examples
+    --------
+    >>> told = counts()
+    >>> told["between"], told["all_pairs"], told["seen"], told["possible"]
+    (99, 4950, 398, 2000)
+    >>> told["fill_landmarks_first"], told["fill_poses_first"], told["fill_along"]
+    (1527, 991, 88)
+    """
+    graph = corridor()
+    poses, marks = list(range(100)), list(range(100, 120))
+    between = sum(1 for _i, j in graph.edges.tolist() if j < 100)
+    pairs = pairs_of(graph)
+    along = sorted(range(120), key=lambda unknown: unknown if unknown < 100 else 5 * (unknown - 100) + 12.5)
+    return {
+        "poses": len(poses),
+        "landmarks": len(marks),
+        "between": between,
+        "all_pairs": len(poses) * (len(poses) - 1) // 2,
+        "seen": len(graph.edges) - between,
+        "possible": len(poses) * len(marks),
+        "fill_landmarks_first": fill_in(pairs, marks + poses),
+        "fill_poses_first": fill_in(pairs, poses + marks),
+        "fill_along": fill_in(pairs, along),
+    }

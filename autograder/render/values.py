@@ -1,0 +1,143 @@
+"""What the templates of the handout fill in: the problem in words and numbers, and facts from the reference."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from assignment.posegraph import PoseGraph
+from autograder.problems.conclusion import choices
+from autograder.problems.problem import Problem, worked_problem
+from autograder.render import landmarks
+from autograder.render.facts import row_by_hand, solve
+from autograder.render.stub import graph_source, start_source
+
+__all__ = ["values"]
+
+PLAN = (
+    ("the story and the model", 20),
+    ("1: residual", 25),
+    ("2: Jacobian", 20),
+    ("3: information matrix", 15),
+    ("4: normal equations", 20),
+    ("5: step", 20),
+    ("question 2", 25),
+    ("question 3", 25),
+)
+POINTS = {
+    "residual": 15,
+    "jacobian": 15,
+    "information_matrix": 10,
+    "normal_equations": 20,
+    "gauss_newton_step": 20,
+    "second_step": 10,
+}
+ANSWER_POINTS = {"iterates": 3, "conclusion": 2, "written_2": 2, "written_3": 3, "bonus": 5}
+
+
+def values(problem: Problem) -> dict[str, Any]:
+    """Collect everything that a template may name. Nothing of it is an answer about this problem."""
+    graph = problem.graph
+    worked = solve(worked_problem())
+    return {
+        "variant": problem.variant,
+        "graph": graph,
+        "graph_source": graph_source(graph),
+        "start": start_source(problem.start),
+        "truth": start_source(problem.truth),
+        "factors": _factors(graph),
+        "poses": [
+            {"index": k, "truth": number(true), "start": number(start)}
+            for k, (true, start) in enumerate(zip(problem.truth, problem.start, strict=True))
+        ],
+        "plan": PLAN,
+        "points": POINTS,
+        "answer_points": ANSWER_POINTS,
+        "explore_minutes": 60,
+        "choices": choices(problem.variant),
+        "by_hand": _by_hand(graph),
+        "example": {
+            "sigma": number(graph.edge_variances[0] ** 0.5),
+            "variance": number(graph.edge_variances[0]),
+            "weight": number(1 / graph.edge_variances[0]),
+        },
+        "prior": {
+            "variance": number(graph.prior_variances[0]),
+            "sigma": number(graph.prior_variances[0] ** 0.5),
+            "ratio": f"{(graph.edge_variances[0] / graph.prior_variances[0]) ** 0.5:.2g}",
+        },
+        "worked": {
+            "rmse": f"{worked.rmse:.3f}",
+            "rmse1": f"{worked.rmse1:.3f}",
+            "cost": number(worked.cost),
+            "cost1": number(worked.cost1),
+        },
+        "sparsity": _sparsity(graph),
+        "row_sums": _row_sums(graph),
+        "landmarks": landmarks.counts(),
+    }
+
+
+def number(value: float) -> str:
+    """Print a number short, without the noise of adding floats.
+
+    Examples
+    --------
+    >>> number(0.1 + 0.2), number(-0.0), number(0.001 ** 0.5)
+    ('0.3', '0', '0.0316')
+    """
+    return f"{round(float(value), 4) + 0.0:g}"
+
+
+def _bracket(value: float) -> str:
+    return f"({number(value)})" if value < 0 else number(value)
+
+
+def _factors(graph: PoseGraph) -> list[dict[str, Any]]:
+    rows = []
+    for (i, j), u, v in zip(
+        graph.edges.tolist(), graph.measurements.tolist(), graph.edge_variances.tolist(), strict=True
+    ):
+        kind = "odometry" if abs(i - j) == 1 else "loop"
+        rows.append({"words": f"{kind} {i} → {j}", "value": f"{u:.2f}", "variance": number(v)})
+    for k, mean, v in zip(
+        graph.priors.tolist(), graph.prior_means.tolist(), graph.prior_variances.tolist(), strict=True
+    ):
+        rows.append({"words": f"prior on pose {k}", "value": f"{mean:.2f} (mean)", "variance": number(v)})
+    return [{"row": row, **words} for row, words in enumerate(rows)]
+
+
+def _by_hand(graph: PoseGraph) -> dict[str, Any]:
+    """Work one edge row and one prior row where every pose stands at 1 m."""
+    prior_row = len(graph.edges)
+    (i, j), u, mean = graph.edges[0].tolist(), float(graph.measurements[0]), float(graph.prior_means[0])
+    return {
+        "edge_row": 0,
+        "i": i,
+        "j": j,
+        "u": number(u),
+        "u_bracket": _bracket(u),
+        "f_edge": number(row_by_hand(graph, 0)),
+        "prior_row": prior_row,
+        "k": int(graph.priors[0]),
+        "mean": number(mean),
+        "mean_bracket": _bracket(mean),
+        "f_prior": number(row_by_hand(graph, prior_row)),
+    }
+
+
+def _sparsity(graph: PoseGraph) -> dict[str, int]:
+    _J, H = landmarks.patterns(graph)
+    return {
+        "n": graph.n_poses,
+        "pairs": len(landmarks.pairs_of(graph)),
+        "nnz": int(np.sum(H)),
+        "cells": graph.n_poses**2,
+    }
+
+
+def _row_sums(graph: PoseGraph) -> str:
+    weights = np.zeros(graph.n_poses)
+    np.add.at(weights, graph.priors, 1.0 / graph.prior_variances)
+    return "(" + ", ".join(number(weight) for weight in weights) + ")"
