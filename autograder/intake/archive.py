@@ -81,15 +81,18 @@ def _tree(file: Path | io.BytesIO, origin: str, name: str) -> Tree:
     taken: dict[str, bool] = {}
     for info in infos:
         parts, problem = _path(info)
-        if any(is_noise(part) for part in parts[:-1]) or (is_noise(parts[-1]) and not info.is_dir()):
+        if info.orig_filename == "./":
+            continue  # the folder that was packed itself
+        is_folder = info.orig_filename.endswith(("/", "\\"))  # ZipInfo.is_dir fails where there is no name
+        if not problem and (any(map(is_noise, parts[:-1])) or (is_noise(parts[-1]) and not is_folder)):
             folders.update(parts[: depth + 1] for depth in range(len(parts) - 1) if not parts[depth].startswith("__"))
             continue
         key = unicodedata.normalize("NFC", "/".join(parts)).casefold()
-        if key in taken and not (info.is_dir() and taken[key]):
+        if key in taken and not (is_folder and taken[key]):
             problem = problem or "stands there twice under names that some systems hold for one"
-        taken[key] = info.is_dir()
+        taken[key] = is_folder
         folders.update(parts[: depth + 1] for depth in range(len(parts) - 1))
-        if info.is_dir() and not problem:
+        if is_folder and not problem:
             folders.add(parts)
             continue
         load = partial(_load, archive, info)
@@ -102,7 +105,9 @@ def _tree(file: Path | io.BytesIO, origin: str, name: str) -> Tree:
 def _path(info: zipfile.ZipInfo) -> tuple[tuple[str, ...], str]:
     """Return the parts of an entry's path, and what is wrong with it."""
     written = info.orig_filename.replace("\\", "/")
-    parts = tuple(part for part in written.split("/") if part not in ("", ".")) or ("entry",)
+    parts = tuple(part for part in written.split("/") if part not in ("", "."))
+    if not parts:
+        return ("entry",), "has no name"
     if len(written) > MAX_PATH:
         return (parts[-1][:80],), "has a name longer than any file system takes"
     if "\0" in written:
