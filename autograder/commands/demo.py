@@ -51,7 +51,7 @@ def command(out: Path, workers: int | None, allow_unconfined: bool) -> int:
     copy_files(files("assignment"), out / "assignment")
     copy_files(files("autograder.specimens") / "sample", out / "class")
     click.echo("1. What a student receives\n")
-    for path in sorted((out / "assignment").iterdir()):
+    for path in sorted((out / "assignment").glob("[!.]*")):
         click.echo(f"   {path}")
     click.echo("\n   " + "\n   ".join(_worked_example().splitlines()))
     uploads = collect([out / "class"])

@@ -75,6 +75,7 @@ def command(
 
     course = load_course(course_file)
     submissions = _chosen(collect(list(paths)), only)
+    make_folder(out)
     run = grade_and_report(submissions, course, out, merge=bool(only), **options)
     show(run, out, as_json)
     return exit_code(run)
@@ -129,7 +130,6 @@ def grade_and_report(
         "min_confinement": min_confinement or course.min_confinement,
     }
     settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, **given)
-    make_folder(out)
     with progress() as report:
         run = grade(submissions, course, settings, out, report)
     if merge:

@@ -1,4 +1,4 @@
-# expect: 
+# expect: others=passed; vectorised, a Jacobian from rows of the identity.
 """1D SLAM, Ada Lindqvist."""
 
 import numpy as np

@@ -1,4 +1,4 @@
-# expect: 
+# expect: others=passed remark=lists; loops and lists, inverts both the covariance and H.
 import numpy as np
 from posegraph import PoseGraph
 

@@ -1,4 +1,4 @@
-# expect: 
+# expect: others=passed remark=columns; whitened QR, columns for vectors, differences for J.
 """Whitened: a factor divided by its standard deviation, then ordinary least squares."""
 
 import numpy as np

@@ -1,4 +1,4 @@
-# expect: 
+# expect: information_matrix=failed:covariance_used_as_information gauss_newton_step=partial+follow_through others=passed; covariance used as information.
 import numpy as np
 
 

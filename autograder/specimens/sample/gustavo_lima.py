@@ -1,4 +1,4 @@
-# expect: 
+# expect: jacobian=failed:jacobian_transposed others=passed; J transposed, and turned back before it is used.
 import numpy as np
 
 

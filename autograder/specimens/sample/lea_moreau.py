@@ -1,4 +1,4 @@
-# expect: 
+# expect: gauss_newton_step=partial:step_rounded_to_4_decimals second_step=partial:stops_at_four_decimals others=passed; dx rounded to four decimals.
 import numpy as np
 
 

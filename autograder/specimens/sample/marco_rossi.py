@@ -1,4 +1,4 @@
-# expect: 
+# expect: others=passed; one statement at the top raises, for the file that it reads is not there.
 import numpy as np
 
 measurements = np.loadtxt("odometry.txt")  # my own copy of the numbers, next to this file

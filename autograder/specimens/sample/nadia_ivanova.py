@@ -1,4 +1,4 @@
-# expect: 
+# expect: gauss_newton_step=timeout second_step=timeout others=passed; iterates until every measurement agrees, so for ever.
 import numpy as np
 
 

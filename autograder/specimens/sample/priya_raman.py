@@ -1,4 +1,4 @@
-# expect: 
+# expect: others=passed; imports scipy and does not use it, plots with matplotlib.
 import numpy as np
 import matplotlib.pyplot as plt
 import scipy.sparse as sparse  # for the bonus, some day

@@ -1,4 +1,4 @@
-# expect: 
+# expect: jacobian=failed others=error; hostile, reads files, walks frames, patches numpy, writes marks, ends the process.
 """Looks for the answers instead of writing them: everything it tries is refused or worth nothing."""
 
 import gc
