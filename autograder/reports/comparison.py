@@ -26,6 +26,7 @@ _COLUMNS_ARE_FACTORS = {"Omega"}
 # Entries closer than this (of the largest expected entry) are drawn as equal: the judge's own
 # tolerances are near rounding, and a reader should see the entry that matters.
 _CLOSE = 1e-6
+_DUST = 1e-12  # rounding: what is smaller than this (of the largest expected entry) is drawn as 0
 
 _Rows = Sequence[Sequence[Any]]
 
@@ -54,8 +55,9 @@ class Part:
     def entries(self) -> tuple[list[list[str]], list[list[str]]]:
         """Write got and expected as text; a wrong entry has as many digits as tell it apart."""
         got = self.got if not isinstance(self.got, str) else ()
-        left = [[number(value) for value in row] for row in got]
-        right = [[number(value) for value in row] for row in self.expected]
+        dust = _DUST * max((abs(_real(value)) for row in self.expected for value in row), default=0.0)
+        left = [[number(value, dust=dust) for value in row] for row in got]
+        right = [[number(value, dust=dust) for value in row] for row in self.expected]
         for r, c in self.wrong:
             digits = 6
             while left[r][c] == right[r][c] and digits < 17:

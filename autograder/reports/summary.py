@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -10,6 +11,8 @@ from typing import Any
 from autograder.reports.wording import MARKS, plural, visible
 from autograder.verdicts import Result, StageVerdict
 
+# Two messages that differ in their numbers only tell of one mistake.
+_NUMBERS = re.compile(r"-?\d[\d.]*(e-?\d+)?")
 FULL = ("passed", "not_graded", "awaiting_mark")
 
 
@@ -68,28 +71,32 @@ def mean_score(results: Iterable[Result]) -> float | None:
 def troubles(results: Iterable[Result]) -> list[Trouble]:
     """Group lost points by stage and reason, the most frequent first.
 
-    The reason is the recognised slip, or else the message. Where the same submissions lost several
-    stages for the same reason, these stages make one group.
+    The reason is the recognised slip, or else the message, whatever its numbers; recognised slips stand
+    before the rest. Where the same submissions lost several stages for the same reason, these stages make
+    one group.
     """
     order: dict[str, int] = {}
+    words: dict[str, str] = {}
     found: dict[tuple[str, str | None, str], list[str]] = {}
     for result in results:
         for stage in result.stages:
             order.setdefault(stage.name, len(order))
             if stage.status not in FULL:
-                found.setdefault((stage.name, stage.slip, reason(stage)), []).append(result.submission)
+                key = (stage.name, stage.slip, _NUMBERS.sub("#", reason(stage)))
+                words.setdefault(key[2], reason(stage))
+                found.setdefault(key, []).append(result.submission)
     joined: dict[tuple[str | None, str, tuple[str, ...]], list[str]] = {}
-    for (name, slip, words), submissions in found.items():
-        joined.setdefault((slip, words, tuple(submissions)), []).append(name)
-    listed = [
-        Trouble(names[0] if len(names) == 1 else plural(len(names), "stage"), slip, words, submissions)
-        for (slip, words, submissions), names in joined.items()
+    for (name, slip, kind), submissions in found.items():
+        joined.setdefault((slip, kind, tuple(submissions)), []).append(name)
+    listed = sorted(joined.items(), key=lambda item: (-len(item[0][2]), item[0][0] is None, order[item[1][0]]))
+    return [
+        Trouble(names[0] if len(names) == 1 else plural(len(names), "stage"), slip, words[kind], submissions)
+        for (slip, kind, submissions), names in listed
     ]
-    return sorted(listed, key=lambda t: (-t.count, order.get(t.stage, -1), t.reason))
 
 
 def reason(stage: StageVerdict) -> str:
-    """Say shortly why a stage lost points: the slip's name, else the message, else the status.
+    """Say shortly why a stage lost points: the slip's name, else the first sentence of the message.
 
     Examples
     --------
@@ -100,7 +107,8 @@ def reason(stage: StageVerdict) -> str:
         return stage.slip.replace("_", " ")
     if stage.status in ("missing", "timeout", "memory"):
         return MARKS[stage.status][1]
-    return visible(stage.message) or MARKS[stage.status][1]
+    first, _, _ = visible(stage.message).partition(". ")
+    return first.rstrip(".") or MARKS[stage.status][1]
 
 
 def most_instructive(results: Iterable[Result]) -> tuple[Result, StageVerdict, dict[str, Any]] | None:

@@ -33,8 +33,8 @@ def points(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def number(value: Any, digits: int = 6) -> str:
-    """Write one entry of an array; -0. is 0, and None (JSON knows no NaN) is nan.
+def number(value: Any, digits: int = 6, dust: float = 0.0) -> str:
+    """Write one entry of an array; -0. and what is at most `dust` are 0, and None (JSON knows no NaN) is nan.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def number(value: Any, digits: int = 6) -> str:
     if isinstance(value, float):
         if not math.isfinite(value):
             return "nan" if math.isnan(value) else ("inf" if value > 0 else "-inf")
-        return f"{value + 0.0:.{digits}g}"
+        return "0" if abs(value) <= dust else f"{value:.{digits}g}"
     return visible(str(value), 24)
 
 

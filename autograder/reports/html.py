@@ -1,0 +1,67 @@
+"""HTML pages: self-contained, readable without a script, with everything foreign escaped.
+
+The policy in each page lets nothing be loaded and nothing be sent: the style and the script are named
+by their hashes, pictures are data.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from autograder.reports import charts
+from autograder.reports.wording import MARKS, number, plural, points, visible
+
+_TEMPLATES = "reports/templates"
+
+
+def page(template: str, **values: Any) -> str:
+    """Fill a template; a value that is missing is an error, never an empty place."""
+    return _environment().get_template(template).render(**values)
+
+
+def picture(svg: str, description: str) -> Markup:
+    """Embed an SVG as an image: nothing in it can run, and its ids are its own."""
+    data = base64.b64encode(svg.encode()).decode()
+    return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(data, description)
+
+
+@cache
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader("autograder", _TEMPLATES),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters.update(points=points, number=number, visible=visible, plural=plural)
+    environment.globals.update(
+        style=_asset("style.css"),
+        style_hash=_hash("style.css"),
+        script=_asset("table.js"),
+        script_hash=_hash("table.js"),
+        marks=MARKS,
+        bar=charts.bar,
+    )
+    return environment
+
+
+@cache
+def _asset(name: str) -> Markup:
+    # A file of ours; `</` would end the element it stands in.
+    text = (files("autograder") / _TEMPLATES / name).read_text(encoding="utf-8")
+    assert "</" not in text
+    return Markup(text)
+
+
+@cache
+def _hash(name: str) -> Markup:
+    digest = hashlib.sha256(_asset(name).encode()).digest()
+    return Markup("'sha256-" + base64.b64encode(digest).decode() + "'")
