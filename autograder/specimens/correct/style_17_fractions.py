@@ -32,13 +32,14 @@ def normal_equations(J, omega, f):
     J = [[Fraction(float(v)) for v in row] for row in J]
     w = [Fraction(float(omega[r, r])) for r in range(m)]
     f = [Fraction(float(v)) for v in f]
+    wJ = [[w[r] * v for v in J[r]] for r in range(m)]
     H = np.zeros((n, n))
     b = np.zeros(n)
     for a in range(n):
         used = [r for r in range(m) if J[r][a]]
         for c in range(a, n):
-            H[a, c] = H[c, a] = float(sum((J[r][a] * w[r] * J[r][c] for r in used if J[r][c]), Fraction(0)))
-        b[a] = float(sum((J[r][a] * w[r] * f[r] for r in used), Fraction(0)))
+            H[a, c] = H[c, a] = float(sum((wJ[r][a] * J[r][c] for r in used if J[r][c]), Fraction(0)))
+        b[a] = float(sum((wJ[r][a] * f[r] for r in used), Fraction(0)))
     return H, b
 
 
