@@ -28,9 +28,11 @@ from .values import BadValue, described, flatten
 
 _FLOAT64 = np.dtype("<f8")
 
-# The array that comes first with its bytes, and its one companion, for calls f(x, graph); else None.
-# Then all arguments as they are, and the places, arrays and bytes of those that are copied for each call.
-_Case = tuple[Any, bytes, Any, tuple[Any, ...], tuple[tuple[int, Any, bytes], ...]]
+# What a call is made of; the first form that fits, for speed:
+# f(x, graph): the array, its bytes, and the companion; else None, b"", None;
+# f(J, omega, f): all arrays and their bytes; else empty;
+# anything else: the arguments as they are, and the places, arrays and bytes of those that are copied.
+_Case = tuple[Any, bytes, Any, list[Any], list[bytes], tuple[Any, ...], tuple[tuple[int, Any, bytes], ...]]
 
 
 @dataclass(frozen=True)
@@ -82,8 +84,10 @@ def _case(arguments: list[Any]) -> _Case:
         (place, value, value.tobytes()) for place, value in enumerate(arguments) if type(value) is np.ndarray
     )
     if len(arguments) == 2 and len(copied) == 1 and copied[0][0] == 0:
-        return copied[0][1], copied[0][2], arguments[1], (), ()
-    return None, b"", None, tuple(arguments), copied
+        return copied[0][1], copied[0][2], arguments[1], [], [], (), ()
+    if arguments and len(copied) == len(arguments):
+        return None, b"", None, arguments, [before for _, _, before in copied], (), ()
+    return None, b"", None, [], [], tuple(arguments), copied
 
 
 def call(plan: Plan, function: Callable[..., Any] | None, nonce: int) -> BatchReport:
@@ -117,16 +121,19 @@ class _Gathered:
         self.reasons: dict[int, str] = {}
         self.mutated = -1
 
-    def call(self, function: Callable[..., Any]) -> None:
+    def call(self, function: Callable[..., Any]) -> None:  # noqa: PLR0912  # one loop for all forms of a call, for speed
         """Make the calls. Every name used in the loop is local: a case costs about a microsecond."""
         single, most, float64, ndarray = self.plan.parts == 1, self.plan.most, _FLOAT64, np.ndarray
         shapes, data = self.shapes.append, self.data.append
-        for number, (first, original, companion, template, copied) in enumerate(self.plan.cases):
+        for number, (first, original, companion, sources, originals, template, copied) in enumerate(self.plan.cases):
             x, arguments = None, []
             try:
                 if first is not None:
                     x = first.copy()
                     value = function(x, companion)
+                elif sources:
+                    arguments = [source.copy() for source in sources]
+                    value = function(*arguments)
                 else:
                     arguments = list(template)
                     for place, source, _ in copied:
@@ -151,16 +158,27 @@ class _Gathered:
                 if x is not None:
                     if x.tobytes() != original:
                         self.mutated = number
+                elif originals:
+                    if arguments and [argument.tobytes() for argument in arguments] != originals:
+                        self.mutated = number
                 elif arguments and any(arguments[place].tobytes() != before for place, _, before in copied):
                     self.mutated = number
 
     def _take(self, number: int, value: Any) -> None:
-        parts = self.plan.parts
+        parts, most = self.plan.parts, self.plan.most
         items = [value] if parts == 1 else _parts(value, parts)
-        flat = []
+        flat: list[tuple[tuple[int, ...], bytes, Kind]] = []
         for place, item in enumerate(items):
+            if (
+                type(item) is np.ndarray
+                and item.dtype is _FLOAT64
+                and item.size <= most
+                and item.ndim <= MAX_DIMENSIONS
+            ):
+                flat.append((item.shape, item.tobytes(), Kind.FLOAT_ARRAY))
+                continue
             try:
-                flat.append(flatten(item, self.plan.most))
+                flat.append(flatten(item, most))
             except BadValue as error:
                 raise BadValue(f"value {place + 1} of {parts}: {error}" if parts > 1 else str(error)) from None
         for place, (shape, data, kind) in enumerate(flat):
@@ -180,6 +198,8 @@ class _Gathered:
 
 
 def _parts(value: Any, parts: int) -> list[Any]:
+    if type(value) is tuple and len(value) == parts:
+        return list(value)
     for kind in (tuple, list):
         if issubclass(type(value), kind):
             items = list(kind.__iter__(value))

@@ -81,19 +81,30 @@ class Child:
         return batches.call(plan, function, request.nonce)
 
 
-def _arrange(data: int, output: int) -> None:
-    """Put the descriptors in their places and let Python's streams follow."""
-    os.dup2(output, OUTPUT)
-    os.dup2(output, ERRORS)
-    os.dup2(data, DATA)  # last: the output may have come as this number
+def furnish() -> None:
+    """Give this process, and so every child, the streams and settings that a submission finds.
+
+    The stream writes to the descriptor of the output, whatever a child puts there.
+    """
+    reading, writing = os.pipe()  # so that the stream is one that cannot seek, as in the child
+    os.dup2(writing, OUTPUT)
+    os.close(reading)
+    os.close(writing)
     raw = io.FileIO(OUTPUT, "w", closefd=False)
     stream = io.TextIOWrapper(io.BufferedWriter(raw, 1 << 16), encoding="utf-8", errors="replace")
     for name in ("stdout", "stderr", "__stdout__", "__stderr__"):
         setattr(sys, name, stream)
     sys.stdin = io.StringIO()
     sys.argv = ["slam1d.py"]
-    random.seed(0)  # Python seeds it anew in every fork; two runs of a submission must agree
     warnings.simplefilter("ignore", SyntaxWarning)
+
+
+def _arrange(data: int, output: int) -> None:
+    """Put the descriptors in their places."""
+    os.dup2(output, OUTPUT)
+    os.dup2(output, ERRORS)
+    os.dup2(data, DATA)  # last: the output may have come as this number
+    random.seed(0)  # Python seeds it anew in every fork; two runs of a submission must agree
 
 
 def _send(frame: Any) -> None:

@@ -47,7 +47,7 @@ def serve(control: socket.socket, grader: int) -> None:
 
 def _set_up(setup: Any) -> tuple[Child, Any]:
     from . import batches, frames, policy  # noqa: PLC0415  # as above
-    from .child import Child  # noqa: PLC0415  # as above
+    from .child import Child, furnish  # noqa: PLC0415  # as above
     from .lockdown import Lock  # noqa: PLC0415  # as above
 
     policy.preload()
@@ -61,6 +61,7 @@ def _set_up(setup: Any) -> tuple[Child, Any]:
     os.environ.clear()
     sys.path.clear()
     sys.path_importer_cache.clear()
+    furnish()
     lock = Lock(setup.memory_mib << 20, setup.cpu_seconds, frozenset(setup.without))
     lock.prepare()
     del inputs

@@ -93,10 +93,12 @@ def student_import(
     return _proxies(name, tuple(fromlist or ()))
 
 
-def student_builtins() -> dict[str, Any]:
-    """Make the builtins of a submission: Python's own, this import, and what a notebook has beside them."""
-    names = dict(vars(builtins))
-    names["__import__"] = student_import
-    names["get_ipython"] = names["display"] = NOTHING
-    names["help"] = no_help
-    return names
+# The builtins of a submission: Python's own, this import, and what a notebook has beside them. Made
+# once, in the fork server; a child has its own copy of all memory.
+STUDENT_BUILTINS: dict[str, Any] = {
+    **vars(builtins),
+    "__import__": student_import,
+    "get_ipython": NOTHING,
+    "display": NOTHING,
+    "help": no_help,
+}

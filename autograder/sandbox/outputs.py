@@ -144,6 +144,9 @@ def _shapes(dimensions: bytes, sizes: list[int]) -> list[tuple[int, ...]]:
         raise Violation("the shapes do not fit their dimensions")
     if min(sizes, default=0) < 0 or max(sizes, default=0) > 1 << 31:
         raise Violation("a shape has a side of impossible length")
+    first = dimensions[0] if dimensions else 0
+    if first and dimensions == bytes([first]) * len(dimensions):  # as nearly always
+        return list(zip(*[iter(sizes)] * first, strict=True))
     shapes, at = [], 0
     for count in dimensions:
         shapes.append(tuple(sizes[at : at + count]))

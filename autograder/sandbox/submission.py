@@ -13,7 +13,7 @@ from typing import Any
 from . import frames
 from .failures import classify, clean, said
 from .frames import AnswerData, Outcome, Remark, Source, Status
-from .imports import ForbiddenImport, student_builtins
+from .imports import STUDENT_BUILTINS, ForbiddenImport
 from .parsing import Statement, statements
 from .policy import STUDENT_MODULE
 from .values import BadValue, described, flatten
@@ -42,7 +42,7 @@ class Submission:
         self._flags = 0  # of `from __future__ import ...`, which holds for all that follows
         self._module = ModuleType(STUDENT_MODULE)
         self._names: dict[str, Any] = vars(self._module)
-        self._names["__builtins__"] = student_builtins()
+        self._names["__builtins__"] = STUDENT_BUILTINS
         if source.kind == "module":
             self._names["__file__"] = f"{STUDENT_MODULE}.py"
         sys.modules[STUDENT_MODULE] = self._module

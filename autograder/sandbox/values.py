@@ -76,8 +76,10 @@ def _plain_array(array: np.ndarray, most: int, words: str) -> tuple[tuple[int, .
         return array.shape, _objects(array, words), Kind.OTHER
     else:
         raise BadValue(f"{words} {_dtype(array)}")
-    with np.errstate(all="ignore"):
-        return array.shape, array.astype("<f8", order="C").tobytes(), kind
+    if kind is Kind.OTHER:  # wider than float64: what is too large becomes infinite, without a warning
+        with np.errstate(all="ignore"):
+            return array.shape, array.astype("<f8").tobytes(), kind
+    return array.shape, array.astype("<f8").tobytes(), kind
 
 
 def _objects(array: np.ndarray, words: str) -> bytes:
