@@ -41,7 +41,9 @@ def all_slips():
 
 
 # What only the grader sees, with the reason.
-ONLY_THE_GRADER = {}
+ONLY_THE_GRADER = {
+    "difference_step_too_small": "the lost digits show at states far from 0, and the public ones are near",
+}
 
 
 def failing(self_check, work):
