@@ -11,7 +11,7 @@ from typing import Literal
 import msgspec
 
 import autograder
-from autograder.course import Course
+from autograder.course import LATER_POINTS, Course
 from autograder.engine.corpus import Corpus, draw_corpus
 from autograder.engine.local import Pool, default_workers
 from autograder.engine.store import RunRecord, Store, code_digest, fingerprint, versions
@@ -229,7 +229,7 @@ class _Grading:
         known = {stage.name for stage in all_stages()}
         return [
             StageVerdict(name=name, status="not_graded", score=0.0, max_score=0.0, message="Not yet graded.")
-            for name in self.course.stages
+            for name in LATER_POINTS
             if name not in known
         ]
 

@@ -6,7 +6,6 @@ import contextlib
 import os
 import signal
 import time
-from collections.abc import Callable
 from multiprocessing.connection import Connection
 
 import msgspec
@@ -82,7 +81,10 @@ def decode_message(data: bytes) -> Message:
 def main(connection: Connection, orders: bytes) -> None:
     """Serve until the other end closes: sources in, verdicts out."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's to handle
-    send: Callable[[Message], None] = lambda message: connection.send_bytes(msgspec.msgpack.encode(message))  # noqa: E731 - one line, used five times
+
+    def send(message: Message) -> None:
+        connection.send_bytes(msgspec.msgpack.encode(message))
+
     with contextlib.suppress(BrokenPipeError, EOFError, ConnectionResetError):
         told = msgspec.msgpack.decode(orders, type=Orders)
         try:

@@ -1,0 +1,205 @@
+"""A run over a class: nothing lost, nothing run twice, the same marks whoever runs it."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from dataclasses import replace
+
+import pytest
+
+from autograder.course import Course
+from autograder.engine.grade import Settings, grade
+from autograder.engine.store import Store
+from autograder.errors import SandboxError, UsageError
+from autograder.intake.submission import collect
+from tests.engine.conftest import REFERENCE
+
+SETTINGS = Settings(examples=10, time_limit=0.3, workers=2)
+COURSE = Course()
+CLASS = {
+    "ada": REFERENCE,
+    "bob": REFERENCE.replace("1.0 / variances", "variances"),
+    "cleo": REFERENCE + "\n\ndef residual(x, graph):\n    return 1 / 0\n",
+    "dan": "x = 1\n",
+    "eve": REFERENCE.replace("-1.0", "1.0"),
+}
+
+
+@pytest.fixture
+def uploads(tmp_path):
+    """A folder with five submissions."""
+    folder = tmp_path / "uploads"
+    folder.mkdir()
+    for name, text in CLASS.items():
+        (folder / f"{name}.py").write_text(text)
+    return folder
+
+
+def stripped(out):
+    """Return all results without the seconds, and the record without its timings."""
+    results = {}
+    for path in sorted((out / "results").iterdir()):
+        data = json.loads(path.read_bytes())
+        del data["seconds"]
+        results[path.name] = data
+    return results
+
+
+def test_every_submission_has_a_result(uploads, tmp_path):
+    """Results are on disk as they are in the run, sorted, with the marks that the work deserves."""
+    run = grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out")
+    assert [result.submission for result in run.results] == sorted(CLASS)
+    scores = {result.submission: result.score for result in run.results}
+    assert scores["ada"] == run.results[0].max_score == 90
+    assert scores["dan"] == 0
+    assert 0 < scores["bob"] < 90
+    store = Store(tmp_path / "out")
+    assert tuple(store.read(name) for name in sorted(CLASS)) == run.results
+    record = json.loads((tmp_path / "out/run.json").read_bytes())
+    assert record["seed"] == 0
+    assert record["confinement"] in {"full", "seccomp"}
+    assert record["graded_now"] == 5
+
+
+def test_one_worker_and_two_agree(uploads, tmp_path):
+    """The number of workers and the order in which they finish change no byte but the seconds."""
+    for workers in (1, 2):
+        grade(collect([uploads]), COURSE, replace(SETTINGS, workers=workers), tmp_path / f"out{workers}")
+    assert stripped(tmp_path / "out1") == stripped(tmp_path / "out2")
+
+
+def test_a_second_run_runs_nothing(uploads, tmp_path):
+    """Unchanged work is reused; --fresh runs it again, with the same results."""
+    out = tmp_path / "out"
+    first = grade(collect([uploads]), COURSE, SETTINGS, out)
+    again = grade(collect([uploads]), COURSE, SETTINGS, out)
+    assert (again.record.graded_now, again.record.reused) == (0, 5)
+    assert again.results == first.results
+    fresh = grade(collect([uploads]), COURSE, replace(SETTINGS, fresh=True), out)
+    assert (fresh.record.graded_now, fresh.record.reused) == (5, 0)
+
+
+@pytest.mark.parametrize("change", ["seed", "examples", "points", "time limit"])
+def test_a_changed_rule_is_noticed(uploads, tmp_path, change):
+    """Another seed, other points, another limit: everything is graded again."""
+    out = tmp_path / "out"
+    submissions = collect([uploads])[:1]
+    grade(submissions, COURSE, SETTINGS, out)
+    settings, course = {
+        "seed": (replace(SETTINGS, seed=1), COURSE),
+        "examples": (replace(SETTINGS, examples=11), COURSE),
+        "points": (SETTINGS, replace(COURSE, points={**COURSE.points, "residual": 20.0})),
+        "time limit": (replace(SETTINGS, time_limit=0.4), COURSE),
+    }[change]
+    assert grade(submissions, course, settings, out).record.graded_now == 1
+
+
+def test_a_changed_upload_is_noticed(uploads, tmp_path):
+    """Only the submission that changed is graded again."""
+    out = tmp_path / "out"
+    grade(collect([uploads]), COURSE, SETTINGS, out)
+    (uploads / "dan.py").write_text(REFERENCE)
+    run = grade(collect([uploads]), COURSE, SETTINGS, out)
+    assert (run.record.graded_now, run.record.reused) == (1, 4)
+    assert run.results[3].score == 90
+
+
+@pytest.mark.parametrize("damage", [b"", b"{", b'{"submission": "ada"}', b"null", b"\xff\xfe"])
+def test_a_damaged_result_is_not_believed(uploads, tmp_path, damage):
+    """A result file that is no result is graded again."""
+    out = tmp_path / "out"
+    submissions = collect([uploads])[:1]
+    grade(submissions, COURSE, SETTINGS, out)
+    path = out / "results/ada.json"
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2] if not damage else damage)
+    assert grade(submissions, COURSE, SETTINGS, out).results[0].score == 90
+
+
+def test_a_rejected_upload_scores_zero_and_says_why(uploads, tmp_path):
+    """The others are graded; the reason stands in the result."""
+    (uploads / "zoe.ipynb").write_text("this is no notebook")
+    run = grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out")
+    rejected = run.results[-1]
+    assert (rejected.status, rejected.score) == ("rejected", 0.0)
+    assert rejected.message
+    assert len(run.results) == 6
+
+
+def test_a_weaker_confinement_than_demanded_is_refused(uploads, tmp_path, monkeypatch):
+    """Nothing is graded below the level that the course demands."""
+    monkeypatch.setattr("autograder.engine.grade.LEVELS", ("full", "none", "seccomp"))
+    with pytest.raises(SandboxError, match="autograder doctor"):
+        grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out")
+    assert not list((tmp_path / "out/results").iterdir())
+
+
+def test_an_output_folder_that_is_a_file_is_refused(uploads, tmp_path):
+    """The message names the path and says what to do."""
+    (tmp_path / "out").write_text("a file")
+    with pytest.raises(UsageError, match="choose another with -o"):
+        grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out")
+
+
+def test_a_killed_worker_loses_nothing(uploads, tmp_path):
+    """Its submission runs again in another worker; the results are those of an undisturbed run."""
+    grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "calm")
+    killed = []
+
+    def kill_one(_):
+        if not killed:
+            children = f"/proc/{os.getpid()}/task/{os.getpid()}/children"
+            with open(children) as file:
+                workers = [int(pid) for pid in file.read().split() if b"spawn_main" in _command(pid)]
+            killed.append(workers[0])
+            os.kill(workers[0], signal.SIGKILL)
+
+    grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "rough", kill_one)
+    assert killed
+    assert stripped(tmp_path / "rough") == stripped(tmp_path / "calm")
+
+
+def _command(pid):
+    with open(f"/proc/{pid}/cmdline", "rb") as file:
+        return file.read()
+
+
+def test_ctrl_c_keeps_what_is_done(uploads, tmp_path):
+    """The command ends with 130; the next run goes on from there."""
+    (uploads / "slow.py").write_text("def residual(x, graph):\n    while True:\n        pass\n")
+    command = [sys.executable, "-m", "autograder", "grade", str(uploads), "-o", str(tmp_path / "out")]
+    options = ["--examples", "10", "--time-limit", "5", "--workers", "1"]
+    process = subprocess.Popen([*command, *options], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and len(list((tmp_path / "out/results").glob("*.json"))) < 5:
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to everybody in the group
+    _, stderr = process.communicate(timeout=30)
+    assert process.returncode == 130, stderr
+    assert "Traceback" not in stderr
+    assert json.loads((tmp_path / "out/run.json").read_bytes())["interrupted"] is True
+    assert len(list((tmp_path / "out/results").glob("*.json"))) == 5
+
+
+def test_a_time_out_is_confirmed_alone(uploads, tmp_path):
+    """What ran out of time beside others is run once more by itself before it is believed."""
+    (uploads / "slow.py").write_text("import time\n\ndef residual(x, graph):\n    while True:\n        pass\n")
+    order = []
+    run = grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out", lambda progress: order.append(progress.submission))
+    assert order[-1] == "slow"
+    slow = run.results[-1]
+    assert slow.stages[0].status == "timeout"
+    assert "0.3 s" in slow.stages[0].message
+
+
+def test_nothing_of_the_run_is_left(uploads, tmp_path):
+    """No worker process and no thread stays behind."""
+    before = threading.active_count()
+    grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out")
+    with open(f"/proc/{os.getpid()}/task/{os.getpid()}/children") as file:
+        assert not [pid for pid in file.read().split() if b"spawn_main" in _command(pid)]
+    assert threading.active_count() == before
