@@ -15,8 +15,8 @@ __all__ = ["build_notebook", "render_notebook"]
 
 _HEAD = re.compile(r"^%% (markdown|code|provided) ([a-z0-9][a-z0-9-]*)\n", re.MULTILINE)
 
-# Jupyter folds the source of a provided cell, Colab shows it as a form.
-_FOLDED = {"cellView": "form", "jupyter": {"source_hidden": True}}
+# Jupyter and VS Code fold the source of a provided cell, Colab shows it as a form, nbconvert can go by the tag.
+_FOLDED = {"cellView": "form", "jupyter": {"source_hidden": True}, "tags": ["hide-input"]}
 
 
 def render_notebook(template: str, **values: Any) -> str:
