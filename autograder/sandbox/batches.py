@@ -143,7 +143,7 @@ class _Gathered:
                     single
                     and type(value) is ndarray
                     and value.dtype is float64
-                    and value.size <= most
+                    and 0 < value.size <= most
                     and value.ndim <= MAX_DIMENSIONS
                 ):
                     data(value.tobytes())

@@ -223,7 +223,7 @@ class ProbeReport(Frame, tag="probed"):
     """Which attempts of a canary succeeded."""
 
     nonce: Nonce
-    succeeded: list[str]
+    succeeded: Annotated[list[Annotated[str, Meta(max_length=64)]], Meta(max_length=64)]
 
 
 class Setup(Frame, tag="setup"):

@@ -124,11 +124,12 @@ def read_outputs(report: BatchReport, expected: Expected) -> Outputs:
     kinds = np.frombuffer(report.kinds, np.uint8)
     if (cases and outcome.max() > _LAST_OUTCOME) or (values and kinds.max() > _LAST_KIND):
         raise Violation("an outcome or a kind does not exist")
-    shapes = _shapes(report.dimensions, np.frombuffer(report.sizes, "<i8").tolist())
+    shapes = _shapes(report.dimensions, np.frombuffer(report.sizes, "<i8").tolist(), expected.most)
     fine = np.repeat(outcome == Outcome.OK, parts)
-    sizes = np.fromiter(map(math.prod, shapes), np.int64, values) * fine
-    if (sizes > expected.most).any() or any(shapes[place] for place in np.flatnonzero(~fine).tolist()):
+    products = list(map(math.prod, shapes))
+    if max(products, default=0) > max(expected.most, 1) or any(shapes[at] for at in np.flatnonzero(~fine).tolist()):
         raise Violation("a shape is not one that may be reported")
+    sizes = np.array(products, np.int64) * fine
     offsets = np.zeros(values + 1, np.int64)
     np.cumsum(sizes, out=offsets[1:])
     if int(offsets[-1]) * 8 != len(report.data):
@@ -139,10 +140,10 @@ def read_outputs(report: BatchReport, expected: Expected) -> Outputs:
     return Outputs(outcome, kinds, shapes, offsets, np.frombuffer(report.data, "<f8"), reasons, report.mutated)
 
 
-def _shapes(dimensions: bytes, sizes: list[int]) -> list[tuple[int, ...]]:
+def _shapes(dimensions: bytes, sizes: list[int], most: int) -> list[tuple[int, ...]]:
     if sum(dimensions) != len(sizes) or max(dimensions, default=0) > MAX_DIMENSIONS:
         raise Violation("the shapes do not fit their dimensions")
-    if min(sizes, default=0) < 0 or max(sizes, default=0) > 1 << 31:
+    if min(sizes, default=0) < 0 or max(sizes, default=0) > most:
         raise Violation("a shape has a side of impossible length")
     first = dimensions[0] if dimensions else 0
     if first and dimensions == bytes([first]) * len(dimensions):  # as nearly always

@@ -63,8 +63,10 @@ def _array(value: np.ndarray, most: int) -> tuple[tuple[int, ...], bytes, Kind]:
 
 
 def _plain_array(array: np.ndarray, most: int, words: str) -> tuple[tuple[int, ...], bytes, Kind]:
-    if array.size > most or array.ndim > MAX_DIMENSIONS:
-        raise BadValue(f"shape {array.shape if array.ndim <= MAX_DIMENSIONS else f'with {array.ndim} dimensions'}")
+    if array.ndim > MAX_DIMENSIONS:
+        raise BadValue(f"an array of {array.ndim} dimensions")
+    if array.size > most or max(array.shape, default=0) > most:  # an array without elements may have long sides
+        raise BadValue(f"shape {array.shape}")
     letter, width = array.dtype.kind, array.dtype.itemsize
     if letter == "f":
         kind = Kind.FLOAT_ARRAY if width == 8 else Kind.FLOAT32_ARRAY if width < 8 else Kind.OTHER
@@ -113,7 +115,7 @@ def described(value: Any) -> str:
     if kind in _CONTAINERS:
         return f"a {kind.__name__} of {len(value)}"
     if issubclass(kind, np.ndarray):
-        return "an array"
+        return f"an array of shape {np.ndarray.shape.__get__(value)}"[:100]
     name = str(type.__dict__["__name__"].__get__(kind))[:60]
     article = "an" if name[:1].lower() in "aeiou" else "a"
     return f"{article} {name}"
