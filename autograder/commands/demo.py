@@ -67,7 +67,9 @@ def command(out: Path, workers: int | None, allow_unconfined: bool) -> int:
     )
     print_class(run.results, console())
     _show_most_instructive(run.results)
-    click.echo(f"\n4. Where to look\n\n   {out / 'grades.csv'}\n   {out / 'results'}\n   {out / 'class'}")
+    click.echo("\n4. Where to look\n")
+    for name in ("report.html", "feedback", "grades.csv", "results", "class"):
+        click.echo(f"   {out / name}")
     click.echo(f"\n   Your own class: autograder grade FOLDER -o {out.parent / 'graded'}")
     return exit_code(run)
 

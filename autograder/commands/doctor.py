@@ -49,7 +49,7 @@ def _confinement() -> int:
         click.echo("confinement  BROKEN")
         click.echo(f"what to do   {error}")
         return 3
-    click.echo(f"confinement  {found.level}: {found.wording}")
+    click.echo(f"confinement  {found.wording}")
     click.echo(f"what to do   {_REMEDY[found.level]}")
     return 3 if found.level == "none" else 0
 

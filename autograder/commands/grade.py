@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from autograder.course import Course
     from autograder.engine.grade import Run
     from autograder.intake.submission import Submission
+    from autograder.verdicts import Result
 
 LEVELS = ("full", "seccomp", "none")
 POLICIES = ("full", "hint", "score")
@@ -58,7 +59,8 @@ def command(
     """Grade files, folders of files, or both.
 
     Reads .py and .ipynb, grades every submission in a locked process, and writes OUT/grades.csv,
-    OUT/results/ and OUT/run.json. A second run grades only what is new or changed.
+    OUT/report.html, OUT/feedback/ for students, OUT/results/ for staff, and OUT/run.json. A second
+    run grades only what is new or changed.
 
     \b
     autograder grade uploads/ -o graded
@@ -77,7 +79,7 @@ def command(
     submissions = _chosen(collect(list(paths)), only)
     make_folder(out)
     run = grade_and_report(submissions, course, out, merge=bool(only), **options)
-    show(run, out, as_json)
+    print_results(run.results, out, as_json)
     return exit_code(run)
 
 
@@ -118,9 +120,12 @@ def grade_and_report(
     """
     from dataclasses import replace
 
+    import msgspec
+
     from autograder.commands._progress import progress
+    from autograder.commands.report import stored_results
     from autograder.engine.grade import Settings, grade
-    from autograder.reports.gradebook import write_gradebook
+    from autograder.reports.folder import write_reports
 
     given: dict[str, Any] = {
         "seed": seed if seed is not None else (course.seed or 0),
@@ -133,8 +138,15 @@ def grade_and_report(
     with progress() as report:
         run = grade(submissions, course, settings, out, report)
     if merge:
-        run = replace(run, results=_merged(run, out))
-    write_gradebook(run.results, out / "grades.csv", course.stages)
+        run = replace(run, results=stored_results(out))
+    write_reports(
+        run.results,
+        out,
+        msgspec.to_builtins(run.record),
+        stages=course.stages,
+        feedback=settings.feedback,
+        course=course.title,
+    )
     return run
 
 
@@ -148,18 +160,19 @@ def make_folder(out: Path) -> None:
         raise UsageError(f"-o {out}: no folder can be made there ({error.strerror}); choose another.") from error
 
 
-def show(run: Run, out: Path, as_json: bool) -> None:
+def print_results(results: Sequence[Result], out: Path, as_json: bool) -> None:
     """Print results to stdout, and to stderr where the files are."""
     if as_json:
         import msgspec
 
-        for result in run.results:
+        for result in results:
             click.echo(msgspec.json.encode(result))
         return
     from autograder.reports.terminal import console, print_class
 
-    print_class(run.results, console())
-    click.echo(f"\nWrote {out / 'grades.csv'} and {out / 'results'}.", err=True)
+    print_class(results, console())
+    names = ("grades.csv", "report.html", "feedback", "results")
+    click.echo(f"\nWrote {', '.join(str(out / name) for name in names)}.", err=True)
 
 
 def exit_code(run: Run) -> int:
@@ -176,19 +189,3 @@ def exit_code(run: Run) -> int:
         )
         return 3
     return 0
-
-
-def _merged(run: Run, out: Path) -> tuple[Any, ...]:
-    import msgspec
-
-    from autograder.verdicts import decode
-
-    results = {}
-    for path in sorted((out / "results").glob("*.json")):
-        try:
-            result = decode(path.read_bytes())
-        except (OSError, msgspec.DecodeError):
-            continue  # not ours, or half written by something else
-        results[result.submission] = result
-    results.update({result.submission: result for result in run.results})
-    return tuple(results[name] for name in sorted(results))

@@ -41,7 +41,7 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters.update(points=points, number=number, visible=visible, plural=plural)
+    environment.filters.update(lines=_lines, points=points, number=number, visible=visible, plural=plural)
     environment.globals.update(
         style=_asset("style.css"),
         style_hash=_hash("style.css"),
@@ -51,6 +51,10 @@ def _environment() -> Environment:
         bar=charts.bar,
     )
     return environment
+
+
+def _lines(text: str) -> Markup:
+    return Markup("<br>").join(text.split("\n"))
 
 
 @cache

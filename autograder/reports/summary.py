@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from autograder.reports.wording import MARKS, plural, visible
+from autograder.reports.wording import MARKS, visible
 from autograder.verdicts import Result, StageVerdict
 
 # Two messages that differ in their numbers only tell of one mistake.
@@ -73,7 +73,7 @@ def troubles(results: Iterable[Result]) -> list[Trouble]:
 
     The reason is the recognised slip, or else the message, whatever its numbers; recognised slips stand
     before the rest. Where the same submissions lost several stages for the same reason, these stages make
-    one group.
+    one group. A stage that is wrong only because an earlier one is does not count again.
     """
     order: dict[str, int] = {}
     words: dict[str, str] = {}
@@ -81,7 +81,7 @@ def troubles(results: Iterable[Result]) -> list[Trouble]:
     for result in results:
         for stage in result.stages:
             order.setdefault(stage.name, len(order))
-            if stage.status not in FULL:
+            if stage.status not in FULL and not is_consequence(stage):
                 key = (stage.name, stage.slip, _NUMBERS.sub("#", reason(stage)))
                 words.setdefault(key[2], reason(stage))
                 found.setdefault(key, []).append(result.submission)
@@ -90,9 +90,15 @@ def troubles(results: Iterable[Result]) -> list[Trouble]:
         joined.setdefault((slip, kind, tuple(submissions)), []).append(name)
     listed = sorted(joined.items(), key=lambda item: (-len(item[0][2]), item[0][0] is None, order[item[1][0]]))
     return [
-        Trouble(names[0] if len(names) == 1 else plural(len(names), "stage"), slip, words[kind], submissions)
+        Trouble(names[0] if len(names) == 1 else f"{names[0]} +{len(names) - 1}", slip, words[kind], submissions)
         for (slip, kind, submissions), names in listed
     ]
+
+
+def is_consequence(stage: StageVerdict) -> bool:
+    """Tell a stage that is wrong only because an earlier one is: its failed checks were paid for in part."""
+    failed = [check for check in stage.checks if not check.passed]
+    return bool(failed) and all(check.points > 0 for check in failed)
 
 
 def reason(stage: StageVerdict) -> str:

@@ -78,7 +78,7 @@ def test_the_same_mistake_is_counted_once_for_all_who_made_it() -> None:
     """The most frequent reason stands first; one that spans stages is one line."""
     listed = troubles(small_class())
     assert (listed[0].count, listed[0].stage, listed[0].reason) == (2, "jacobian", "loop sign flipped")
-    assert [(t.stage, t.submissions) for t in listed if t.reason == "not written"] == [("6 stages", ("erin",))]
+    assert [(t.stage, t.submissions) for t in listed if t.reason == "not written"] == [("residual +5", ("erin",))]
 
 
 def test_a_class_without_mistakes_has_no_list_of_them() -> None:

@@ -1,0 +1,124 @@
+"""The command line: it answers at once, teaches by example, and ends with the contract's exit codes."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from autograder import cli
+
+HEAVY = ("numpy", "hypothesis", "rich", "nbformat", "jinja2", "msgspec", "multiprocessing")
+Ended = tuple[int, str, str]
+
+
+def test_help_imports_nothing_heavy() -> None:
+    """`autograder --help` answers at once: what costs time is imported by the command that needs it."""
+    code = (
+        "import sys\nfrom autograder import cli\n"
+        "try:\n    cli.main(['--help'])\nexcept SystemExit:\n"
+        f"    print([name for name in {HEAVY} if name in sys.modules])"
+    )
+    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert shown.stdout.splitlines()[-1] == "[]"
+
+
+def test_help_is_fast() -> None:
+    """The best of five starts is under 150 ms, or twice a bare interpreter with click on a slow machine."""
+
+    def seconds(*command: str) -> float:
+        best = 10.0
+        for _ in range(5):
+            start = time.perf_counter()
+            subprocess.run([sys.executable, *command], capture_output=True, check=True)
+            best = min(best, time.perf_counter() - start)
+        return best
+
+    assert seconds("-m", "autograder", "--help") < max(0.150, 2 * seconds("-c", "import click"))
+
+
+def test_help_shows_commands_that_work(run: Callable[..., Ended]) -> None:
+    """Every line of the help that begins with `autograder` names a command and options that exist."""
+    code, out, _ = run("--help")
+    assert code == 0
+    commands = cli.cli.list_commands(None)  # type: ignore[arg-type]
+    assert commands[:2] == ["demo", "init"]
+    for name in commands:
+        code, text, _ = run(name, "--help")
+        assert code == 0
+        out += text
+        examples = [
+            li.split("|")[0].split("  ")[0] for li in map(str.strip, text.splitlines()) if li.startswith("autograder")
+        ]
+        assert any(example.split()[1] == name for example in examples), f"{name} --help shows no example"
+    for example in (li.strip() for li in out.splitlines() if li.strip().startswith("autograder ")):
+        assert example.split()[1].split(" ")[0] in commands
+
+
+def test_no_arguments_show_the_help(run: Callable[..., Ended]) -> None:
+    """A bare `autograder` is a question, not a mistake."""
+    code, out, err = run()
+    assert (code, err) == (0, "")
+    assert "autograder grade" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["grad"], ["'grad'", "demo, init, grade"]),
+        (["grade"], ["PATH", "autograder grade --help"]),
+        (["grade", "x"], ["-o", "autograder grade --help"]),
+        (["grade", "x", "-o", "y", "--sed", "1"], ["--sed", "--seed"]),
+        (["grade", "x", "-o", "y", "--workers", "0"], ["--workers", "x>=1"]),
+        (["grade", "x", "-o", "y", "--time-limit", "zero"], ["--time-limit", "zero"]),
+        (["grade", "x", "-o", "y", "--feedback", "all"], ["all", "full", "hint", "score"]),
+        (["grade", "does/not/exist", "-o", "y"], ["does/not/exist"]),
+    ],
+)
+def test_bad_usage_is_one_line(
+    run: Callable[..., Ended], tmp_path: Path, monkeypatch: Any, arguments: Any, words: Any
+) -> None:
+    """Exit 2, and one line that says what came, what was expected and what to try."""
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert len(err.splitlines()) == 1
+    assert all(word in err for word in words), err
+
+
+def test_init_writes_a_course_file_once(run: Callable[..., Ended], tmp_path: Path) -> None:
+    """A course file that somebody edited is never overwritten."""
+    code, out, _ = run("init", tmp_path / "course.toml")
+    assert code == 0
+    assert "--course" in out
+    assert run("init", tmp_path / "course.toml")[0] == 2
+
+
+def test_the_module_and_the_script_are_the_same() -> None:
+    """`python -m autograder --version` answers."""
+    shown = subprocess.run(
+        [sys.executable, "-m", "autograder", "--version"], capture_output=True, text=True, check=True
+    )
+    assert shown.stdout.startswith("autograder, version ")
+
+
+def test_a_reader_that_leaves_early_is_no_error(tmp_path: Path) -> None:
+    """`autograder grade --help | head -1` ends quietly."""
+    code = f"{sys.executable} -m autograder grade --help | head -1"
+    shown = subprocess.run(["bash", "-c", code], capture_output=True, text=True, check=True)
+    assert shown.stderr == ""
+
+
+def test_doctor_names_the_level_and_the_versions(run: Callable[..., Ended]) -> None:
+    """What this machine gives, in the words of the reports, and what to do."""
+    code, text, _ = run("doctor")
+    assert code in (0, 3)
+    lines = dict(line.split(maxsplit=1) for line in text.splitlines())
+    assert {"autograder", "python", "packages", "system", "cores", "confinement", "what"} <= set(lines)
+    assert "numpy" in lines["packages"]
+    assert any(level in lines["confinement"] for level in ("full", "seccomp", "NOT CONFINED", "BROKEN"))
