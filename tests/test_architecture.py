@@ -24,7 +24,7 @@ problems           -> posegraph, errors
 sandbox            -> errors
 intake             -> errors, sandbox
 stages             -> problems, reference_solution, verdicts, posegraph
-diagnosis          -> stages, problems, verdicts
+diagnosis          -> posegraph, stages, problems, verdicts
 render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, errors
 reports            -> verdicts, render.figure
@@ -38,9 +38,8 @@ __main__           -> cli
 # Imports under `if TYPE_CHECKING` exist for readers only; they follow the table, but for these.
 TYPE_ONLY = {("reference_solution", "posegraph")}  # it must run as a submission, where `assignment` is unknown
 
-# The grader's side of the sandbox; all its other modules run beside a student's code, in a process that has
-# nothing else of ours to import.
-GRADER_SIDE = {f"autograder.sandbox.{name}" for name in ("channel", "host", "outputs", "server")}
+# What this module loads runs beside a student's code, in a process that has nothing else of ours to import.
+FORK_SERVER = "autograder.sandbox.forkserver"
 
 
 def table() -> dict[str, frozenset[str]]:
@@ -121,22 +120,35 @@ def broken_arrows(root: Path) -> list[str]:
     may = table()
     strange = sorted({room_of(module) for module in modules(root)} - {"", *may})
     sentences = [f"There is a room `{room}`, which the table does not know." for room in strange]
-    for found in imports(root):
-        here, there = room_of(found.source), room_of(found.target)
+    found = list(dict.fromkeys(imports(root)))
+    beside_a_student = reached(found, FORK_SERVER)
+    for each in found:
+        here, there = room_of(each.source), room_of(each.target)
         allowed = may.get(here, frozenset())
-        if here == "sandbox" and found.source not in GRADER_SIDE:
-            fine = there == "sandbox" and found.target not in GRADER_SIDE
-            words = "what runs beside a student's code may import modules of its own side only"
+        if each.source in beside_a_student:
+            fine = there == "sandbox"
+            words = f"{FORK_SERVER} loads it, and nothing of ours is beside a student's code but the sandbox"
         else:
             fine = (
                 there in {here, ""}
-                or not allowed.isdisjoint({there, found.target.removeprefix("autograder.")})
-                or (found.type_only and (here, there) in TYPE_ONLY)
+                or not allowed.isdisjoint({there, each.target.removeprefix("autograder.")})
+                or (each.type_only and (here, there) in TYPE_ONLY)
             )
             words = f"{here or 'autograder/__init__.py'} may import {', '.join(sorted(allowed)) or 'nothing of ours'}"
         if not fine:
-            sentences.append(f"{found.source}, line {found.line}, imports {found.target}, but {words}.")
+            sentences.append(f"{each.source}, line {each.line}, imports {each.target}, but {words}.")
     return sentences
+
+
+def reached(found: list[Import], start: str) -> set[str]:
+    """Follow the imports from a module on, as far as they lead."""
+    seen, queue = set(), [start]
+    while queue:
+        module = queue.pop()
+        if module not in seen:
+            seen.add(module)
+            queue += [each.target for each in found if each.source == module]
+    return seen
 
 
 def test_every_import_follows_an_arrow() -> None:
@@ -189,8 +201,8 @@ def test_a_broken_arrow_is_seen(tmp_path: Path, room: str, text: str) -> None:
             "reference_solution may import nothing of ours",
         ),
         ("assignment.posegraph", "import autograder.errors", "posegraph may import nothing of ours"),
-        ("autograder.sandbox.child", "import autograder.errors", "may import modules of its own side only"),
-        ("autograder.sandbox.frames", "from . import host", "may import modules of its own side only"),
+        (FORK_SERVER, "from autograder.errors import SandboxError", "nothing of ours is beside a student's code"),
+        (FORK_SERVER, "from . import host", "nothing of ours is beside a student's code"),
         ("autograder.reports.html", "import autograder.render.stub", "reports may import render.figure, verdicts"),
         ("autograder.__init__", "import autograder.errors", "autograder/__init__.py may import nothing of ours"),
         ("autograder.attic.old", "", "There is a room `attic`, which the table does not know"),
@@ -198,7 +210,7 @@ def test_a_broken_arrow_is_seen(tmp_path: Path, room: str, text: str) -> None:
 )
 def test_a_special_rule_is_seen(tmp_path: Path, module: str, text: str, words: str) -> None:
     """The rules beside the table are held like the table."""
-    _write(tmp_path, "autograder.sandbox.host", "")
+    _write(tmp_path, "autograder.sandbox.host", "import autograder.errors")
     _write(tmp_path, module, text)
     (sentence,) = broken_arrows(tmp_path)
     assert words in sentence

@@ -42,7 +42,7 @@ def follow(section: str, copy: Path) -> None:
         text = (copy / name).read_text(encoding="utf-8") if (copy / name).exists() else ""
         at = text.rindex(f"\n{mark} =") + 1 if mark else len(text)
         (copy / name).write_text(f"{text[:at]}{code}\n\n{text[at:]}".rstrip() + "\n", encoding="utf-8")
-    assert not broken_arrows(copy)
+    assert set(broken_arrows(copy)) <= set(broken_arrows(ROOT))
 
 
 def ask(copy: Path, code: str) -> Any:
