@@ -86,7 +86,8 @@ def _walk(folder: Path, parts: tuple[str, ...]) -> Iterator[tuple[Entry, bool]]:
     except OSError as error:
         if not parts:
             raise UsageError(f"{folder.name} cannot be listed ({_reason(error)}); check its permissions.") from None
-        yield Entry(parts, str(folder), problem=f"is a folder that cannot be listed ({_reason(error)})"), False
+        problem = f"is a folder that cannot be listed ({_reason(error)}); check its permissions"
+        yield Entry(parts, str(folder), problem=problem, closed_folder=True), False
         return
     for item in found:
         path, here = folder / item.name, (*parts, item.name)
@@ -114,12 +115,13 @@ def _link(path: Path, parts: tuple[str, ...]) -> Entry:
     """
     try:
         target = path.resolve(strict=True)
-        problem = _kind_problem(target.stat().st_mode)
+        mode = target.stat().st_mode
     except (OSError, RuntimeError):
         return Entry(parts, str(path), problem="is a link that leads nowhere; hand in the file itself")
-    if not target.is_relative_to(path.parent):
-        return Entry(parts, str(path), problem="is a link that leads out of its folder; hand in the file itself")
-    return Entry(parts, str(target), partial(read_regular, target), problem)
+    if not target.is_relative_to(path.parent) or stat.S_ISDIR(mode):
+        words = "is a link that leads out of its folder" if not stat.S_ISDIR(mode) else "is a link to a folder"
+        return Entry(parts, str(path), problem=f"{words}; hand in the file itself", closed_folder=stat.S_ISDIR(mode))
+    return Entry(parts, str(target), partial(read_regular, target), _kind_problem(mode))
 
 
 def _item_problem(item: os.DirEntry[str]) -> str:

@@ -182,7 +182,7 @@ def _sentence(item: _Found, problem: str) -> str:
     """Make the sentence from the end of it; problems of a path are whole sentences already."""
     if item.upload.entry is None and problem.endswith("."):
         return problem
-    subject = item.upload.entry.name if item.upload.entry is not None else item.path.rsplit("/", 1)[-1]
+    subject = item.upload.entry.name if item.upload.entry is not None else item.upload.name
     return f"{printable(subject)[:80]} {problem}."
 
 

@@ -32,12 +32,15 @@ class Entry:
         It raises RejectedUpload where they cannot be read.
     problem : str
         Why the file must not be read at all, as the end of a sentence ("is a link ..."); "" where it may.
+    closed_folder : bool
+        Whether it stands for a whole folder that must not be looked into.
     """
 
     parts: tuple[str, ...]
     origin: str
     load: Loader = field(default=_unreadable, compare=False)
     problem: str = ""
+    closed_folder: bool = False
 
     @property
     def name(self) -> str:

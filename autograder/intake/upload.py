@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from autograder.intake.naming import printable
@@ -91,6 +91,12 @@ def is_wrong_kind(entry: Entry) -> bool:
 def wrong_kind_problem(entry: Entry) -> str:
     """Say what came and what was expected, as the end of a sentence."""
     return f"is a {entry.suffix or 'file without a suffix'}, {EXPECTED}; save or pack it as one of these"
+
+
+def strays(entries: Iterable[Entry]) -> list[Upload]:
+    """Report the submissions that lie where a layout has none: nobody is guessed to be their owner."""
+    words = "lies where this layout has no submissions, so whose it is cannot be told; give it by itself"
+    return [Upload(entry.stem, entry, entry.problem or words) for entry in entries if is_candidate(entry)]
 
 
 def listing(names: Sequence[str], limit: int = 4) -> str:

@@ -140,7 +140,7 @@ def test_a_link_out_of_its_folder_is_not_followed(tmp_path: Path) -> None:
     found = by_id(tmp_path / "class")
     words = "is a link that leads out of its folder; hand in the file itself."
     assert found["mallory"].rejection == found["eve"].rejection == f"slam1d.py {words}"
-    assert found["dan"].rejection
+    assert found["dan"].rejection == "dan is a link to a folder; hand in the file itself."
     assert found["gone"].rejection == "slam1d.py is a link that leads nowhere; hand in the file itself."
     assert [name for name, each in found.items() if each.source] == ["alice", "bob", "carl"]
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from autograder.intake.naming import printable
 from autograder.intake.tree import Entry, Tree, is_candidate
-from autograder.intake.upload import HOMEWORK, Upload, choose, listing, without_companions
+from autograder.intake.upload import HOMEWORK, Upload, choose, listing, strays, without_companions
 
 TITLE = "Canvas submissions.zip"
 
@@ -39,7 +39,7 @@ def gather(tree: Tree) -> list[Upload]:
     """Take the newest file of each student; text entries and links are reported where there is no file."""
     students: dict[str, list[_Attachment]] = {}
     others: dict[str, tuple[Entry, str]] = {}
-    uploads = []
+    uploads: list[Upload] = []
     for entry in tree.entries:
         if found := _FILE.fullmatch(entry.name):
             own = replace(entry, parts=(found["file"],))
@@ -48,9 +48,8 @@ def gather(tree: Tree) -> list[Upload]:
             students.setdefault(_student(found), []).append(attachment)
         elif found := _ENTRY.fullmatch(entry.name):
             others[_student(found)] = (entry, _id(found))
-        elif is_candidate(entry):
-            problem = "has a name that Canvas does not give, so whose it is cannot be told; give it by itself"
-            uploads.append(Upload(name=entry.stem, entry=entry, problem=entry.problem or problem))
+        else:
+            uploads += strays([entry])
     uploads += [_newest(student, attachments) for student, attachments in students.items()]
     for student, (entry, student_id) in others.items():
         if student not in students:

@@ -9,7 +9,7 @@ from autograder.errors import RejectedUpload
 from autograder.intake.layouts.folder_a_student import by_folder
 from autograder.intake.naming import printable
 from autograder.intake.tree import Entry, Tree
-from autograder.intake.upload import Upload, choose
+from autograder.intake.upload import Upload, choose, strays
 
 TITLE = "Gradescope export with submission_metadata.yml"
 METADATA = "submission_metadata.yml"
@@ -57,7 +57,7 @@ def gather(tree: Tree) -> list[Upload]:
                 words = f"Graded {upload.folder}, the newest; also handed in: {older.folder}."
                 upload = replace(upload, notes=(*upload.notes, words))
             newest[student] = upload
-    return list(newest.values())
+    return [*newest.values(), *strays(entry for entry in tree.entries if entry.parts[0] not in folders)]
 
 
 def _records(tree: Tree) -> tuple[dict[str, Record], tuple[str, ...]]:

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 from autograder.intake.tree import Entry, Tree
-from autograder.intake.upload import Upload, choose
+from autograder.intake.upload import Upload, choose, strays
 
 TITLE = "Moodle assignment folders"
 
@@ -36,4 +36,4 @@ def gather(tree: Tree) -> list[Upload]:
         chosen, problem, notes = choose(entries)
         shown = f"{name}_{number}"
         uploads.append(Upload(shown, chosen, problem, folder=shown, notes=notes, student_id=number))
-    return uploads
+    return uploads + strays(entry for entry in tree.entries if not _OWNER.fullmatch(entry.parts[0]))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from autograder.intake.layouts.folder_a_student import by_folder
 from autograder.intake.tree import Entry, Tree, is_candidate
-from autograder.intake.upload import Upload, choose
+from autograder.intake.upload import Upload, choose, strays
 
 TITLE = "a repository a student"
 
@@ -21,7 +21,9 @@ def recognise(tree: Tree) -> float:
         return 0.0
     tops = [top for top, entries in by_folder(tree).items() if any(map(is_candidate, entries))]
     marked = sum(any((top, mark) in tree.folders for mark in _MARKS) for top in tops)
-    return 0.7 if marked and 2 * marked >= len(tops) else 0.0
+    if not marked or 2 * marked < len(tops):
+        return 0.0
+    return 0.7 if len(tops) > 1 else 0.4  # one repository in an archive is one student's
 
 
 def gather(tree: Tree) -> list[Upload]:
@@ -31,7 +33,7 @@ def gather(tree: Tree) -> list[Upload]:
     for (top, entries), user in zip(folders.items(), users(list(folders)), strict=True):
         chosen, problem, notes = choose(_own_work(entries))
         uploads.append(Upload(user, chosen, problem, folder=top, notes=notes, student_id=user))
-    return uploads
+    return uploads + strays(entry for entry in tree.entries if len(entry.parts) == 1)
 
 
 def users(folders: Sequence[str]) -> list[str]:

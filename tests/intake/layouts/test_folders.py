@@ -1,0 +1,153 @@
+"""Plain folders, folders a student and repositories: whose file it is follows from where it lies."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from autograder.errors import UsageError
+from autograder.intake import layouts as package
+from autograder.intake.layouts import detect, layouts, named
+from autograder.intake.submission import Submission, collect
+from autograder.intake.tree import Tree
+from tests.intake.making import CODE, archive, write
+
+
+def by_id(path: Path, layout: str | None = None) -> dict[str, Submission]:
+    """Collect, by id."""
+    return {each.id: each for each in collect([path], layout)}
+
+
+def layouts_of(found: dict[str, Submission]) -> set[str]:
+    """Return the layouts that were seen."""
+    return {each.layout for each in found.values()}
+
+
+def test_every_file_of_the_package_is_a_layout() -> None:
+    """A new layout is one new file; nothing else lists them."""
+    here = {path.stem for path in Path(package.__file__).parent.glob("[!_]*.py")}
+    assert {layout.name for layout in layouts()} == here
+    assert {"plain", "folder_a_student", "canvas", "moodle", "gradescope", "nbgrader", "repositories"} <= here
+    assert all(layout.title for layout in layouts())
+    assert all(layout.recognise(Tree("empty", ())) == 0 for layout in layouts())
+    assert detect(Tree("empty", ()))[0].name == "plain"
+
+
+def test_a_layout_that_does_not_exist_is_said() -> None:
+    """The names that exist are given, or the one that was meant."""
+    with pytest.raises(UsageError, match="There is no layout 'canvass'; did you mean canvas\\?"):
+        named("canvass")
+    with pytest.raises(UsageError, match="known are canvas, folder_a_student, gradescope"):
+        collect([Path()], "zzz")
+
+
+def test_a_folder_a_student_names_the_submission(tmp_path: Path) -> None:
+    """Whatever the file is called, and however deep it lies below the student's folder."""
+    write(tmp_path, {"alice/slam1d.py": CODE, "bob/work/hw.py": CODE, "carol/x.zip": archive({"slam1d.py": CODE})})
+    found = by_id(tmp_path)
+    assert list(found) == ["alice", "bob", "carol"]
+    assert layouts_of(found) == {"folder_a_student"}
+    assert found["bob"].path.endswith("/bob/work/hw.py")
+
+
+def test_a_student_without_a_submission_is_not_lost(tmp_path: Path) -> None:
+    """Empty folders, foreign files and several files each have their sentence."""
+    write(
+        tmp_path,
+        {
+            "alice/slam1d.py": CODE,
+            "bob/report.pdf": "",
+            "carol/one.py": CODE,
+            "carol/two.py": CODE,
+            "dave/slam1d.py": CODE,
+            "dave/extra.py": CODE,
+            "frank/posegraph.py": "",
+            "notes.txt": "",
+        },
+    )
+    (tmp_path / "erin").mkdir()
+    (tmp_path / ".git").mkdir()
+    found = by_id(tmp_path)
+    expected = "expected one .py, .ipynb or .zip file"
+    assert {name: each.rejection for name, each in found.items()} == {
+        "alice": "",
+        "bob": f"bob holds no submission (found report.pdf), {expected}.",
+        "carol": f"carol holds 2 submissions (one.py, two.py), {expected}; keep the one that counts.",
+        "dave": "",
+        "erin": f"erin holds no submission (found nothing), {expected}.",
+        "frank": f"frank holds only files that were handed out (posegraph.py), {expected}.",
+    }
+    assert found["dave"].notes == ("Graded slam1d.py; also handed in and not graded: extra.py.",)
+
+
+def test_a_plain_folder_names_submissions_by_their_stem(tmp_path: Path) -> None:
+    """Also in sections; only the homework's own name gives way to the folder's."""
+    write(tmp_path, {"alice.py": CODE, "late/carol.py": CODE, "late/dave.py": CODE, "erin/slam1d.py": CODE})
+    found = by_id(tmp_path)
+    assert list(found) == ["alice", "carol", "dave", "erin"]
+    assert layouts_of(found) == {"plain"}
+    write(tmp_path / "two", {"monday/alice.py": CODE, "monday/x.py": CODE, "friday/alice.py": CODE, "friday/y.py": ""})
+    assert list(by_id(tmp_path / "two")) == ["friday-alice", "monday-alice", "x", "y"]
+
+
+def test_files_and_folders_of_students_may_stand_side_by_side(tmp_path: Path) -> None:
+    """A folder with one submission in it names it; a folder of something else is nobody's."""
+    write(tmp_path, {"alice.py": CODE, "bob.ipynb": "", "carol/hw.py": CODE, "figures/x.png": "", "dave/x.py": CODE})
+    found = by_id(tmp_path)
+    assert list(found) == ["alice", "bob", "carol", "dave"]
+    assert layouts_of(found) == {"folder_a_student"}
+    assert list(by_id(tmp_path, "plain")) == ["alice", "bob", "hw", "x"]
+
+
+def test_folders_given_one_by_one_name_their_submission(tmp_path: Path) -> None:
+    """`grade class/*/` and `grade class` find the same students."""
+    write(tmp_path, {"alice/slam1d.py": CODE, "bob/slam1d.py": CODE})
+    assert [each.id for each in collect([tmp_path / "alice", tmp_path / "bob"])] == ["alice", "bob"]
+    assert list(by_id(tmp_path)) == ["alice", "bob"]
+
+
+def test_a_wrapping_folder_is_looked_through(tmp_path: Path) -> None:
+    """The folder that an archive unpacks into names nobody."""
+    write(tmp_path, {"hw1/alice/hw.py": CODE, "hw1/bob/hw.py": CODE})
+    assert list(by_id(tmp_path)) == ["alice", "bob"]
+
+
+def test_a_layout_can_be_overridden(tmp_path: Path) -> None:
+    """What is detected is a guess, and the user knows better."""
+    write(tmp_path, {"alice/one.py": CODE, "bob/two.py": CODE})
+    assert list(by_id(tmp_path, "plain")) == ["one", "two"]
+    assert layouts_of(by_id(tmp_path, "plain")) == {"plain"}
+    path = write(tmp_path, {"class.zip": archive({"alice.py": CODE, "bob.py": CODE})}) / "class.zip"
+    assert "an archive of a whole class is unpacked first" in by_id(path)["class"].rejection
+    assert list(by_id(path, "plain")) == ["alice", "bob"]
+
+
+def test_an_archive_given_by_itself_is_one_submission(tmp_path: Path) -> None:
+    """It is called by its own name, whatever is called how in it."""
+    write(tmp_path, {"alice.zip": archive({"hw/slam1d.py": CODE}), "bob.zip": b"", "class/alice.zip": b"PK"})
+    assert by_id(tmp_path / "alice.zip")["alice"].layout == "file"
+    write(tmp_path, {"carol.zip": archive({"slam-carol/slam1d.py": CODE, "slam-carol/.git/config": ""})})
+    assert by_id(tmp_path / "carol.zip")["carol"].source is not None
+    assert by_id(tmp_path / "bob.zip")["bob"].rejection.startswith("bob.zip is no zip archive")
+
+
+def test_repositories_are_named_by_their_user(tmp_path: Path) -> None:
+    """What all folders share before a dash is the assignment; tests in a repository are not handed in."""
+    for user, name in [("ada", "slam1d.py"), ("alan", "hw.ipynb.py"), ("grace-h", "src/slam1d.py")]:
+        write(
+            tmp_path,
+            {
+                f"slam-1d-{user}/{name}": CODE,
+                f"slam-1d-{user}/.git/config": "",
+                f"slam-1d-{user}/tests/test_it.py": CODE,
+                f"slam-1d-{user}/tests/grader.py": CODE,
+                f"slam-1d-{user}/posegraph.py": "",
+            },
+        )
+    write(tmp_path, {"slam-1d-lazy/.git/config": "", "slam-1d-lazy/README.md": ""})
+    found = by_id(tmp_path)
+    assert list(found) == ["ada", "alan", "grace-h", "lazy"]
+    assert layouts_of(found) == {"repositories"}
+    assert [each.student_id for each in found.values()] == ["ada", "alan", "grace-h", "lazy"]
+    assert [name for name, each in found.items() if each.rejection] == ["lazy"]
