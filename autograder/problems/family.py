@@ -15,6 +15,7 @@ from autograder.problems.stream import Stream
 
 __all__ = ["Family", "Options", "circulating", "parse_options"]
 
+FEWEST_POSES = 3
 MOST_POSES = 24  # with steps up to 3 m they stay within the 100 m that the contract judges
 
 
@@ -25,19 +26,30 @@ class Options:
     Parameters
     ----------
     poses : int, optional
-        Number of poses, at least 3.
+        Number of poses, 3 to 24.
     loops : tuple of pairs, optional
         Loop closures (i, j), i + 1 < j.
     prior_mean : Fraction, optional
         Mean of the prior on pose 0 [m].
     decimals : int, optional
         Most decimals of any number of the problem and its answer: 1, 2 or 3.
+
+    Raises
+    ------
+    UsageError
+        Where a value is out of its range.
     """
 
     poses: int | None = None
     loops: Pairs | None = None
     prior_mean: Fraction | None = None
     decimals: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.poses is not None and not FEWEST_POSES <= self.poses <= MOST_POSES:
+            raise UsageError(f"Option poses is {self.poses}; expected {FEWEST_POSES} to {MOST_POSES}.")
+        if self.decimals not in {None, 1, 2, 3}:
+            raise UsageError(f"Option decimals is {self.decimals}; expected 1, 2 or 3.")
 
     @property
     def text(self) -> str:
@@ -135,8 +147,6 @@ def circulating(
         Where the options make no problem.
     """
     decimals = 2 if options.decimals is None else options.decimals
-    if decimals not in {1, 2, 3}:
-        raise UsageError(f"Option decimals is {decimals}; expected 1, 2 or 3.")
     n = options.poses or poses
     chain = tuple((k, k + 1) for k in range(n - 1)) if tree is None else tree
     closures = options.loops if options.loops is not None else loops
@@ -172,8 +182,6 @@ def circulating(
 
 
 def _check_loops(loops: Pairs, poses: int, chain: Pairs) -> None:
-    if not 3 <= poses <= MOST_POSES:
-        raise UsageError(f"Option poses is {poses}; expected 3 to {MOST_POSES}.")
     if not loops:
         raise UsageError("Option loops is empty; expected at least one loop closure, such as loops=0-4.")
     for i, j in loops:

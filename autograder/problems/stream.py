@@ -66,6 +66,8 @@ class Stream:
         """
         if bound < 1:
             raise ValueError(f"bound must be at least 1, got {bound}")
+        if bound == 1:
+            return 0
         if bound <= 256:  # one byte, nearly always: without the detour
             fair = 256 - 256 % bound
             while True:

@@ -25,8 +25,6 @@ def family(options: Options) -> Family:
     if options.loops is not None:
         raise UsageError("Family L takes no option loops; expected poses, prior_mean or decimals.")
     poses = options.poses or 4
-    if poses < 3:
-        raise UsageError(f"Option poses is {poses}; expected at least 3.")
     first, second = poses, poses + 1
     built = circulating(
         LETTER,
