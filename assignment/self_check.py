@@ -301,7 +301,7 @@ def _linear_cost(J: np.ndarray, w: np.ndarray, f: np.ndarray, d: np.ndarray) -> 
 
 
 def any_system(s: Student, graph: Any, x: np.ndarray) -> None:
-    """For any J, Omega and f, H and b are half the curvature and half the slope of the linearised cost."""
+    """For any J, Omega and f, H and b are half the curvature and slope of the cost."""
     if graph is WORKED:
         for system in SYSTEMS:
             J, w, f = (np.array(part, dtype=float) for part in system)
@@ -310,7 +310,7 @@ def any_system(s: Student, graph: Any, x: np.ndarray) -> None:
 
 
 def own_system(s: Student, graph: Any, x: np.ndarray) -> None:
-    """With your own f, J and Omega, H and b are half the curvature and half the slope of F."""
+    """With your own f, J and Omega, H and b are half the curvature and slope of F."""
     H, b = s.normal(s.jacobian(x, graph), s.omega(graph), s.residual(x, graph))
     half_derivatives(lambda d: s.cost(x + d, graph), H, b)
 

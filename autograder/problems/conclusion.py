@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 from typing import NamedTuple
 
-__all__ = ["CHOICES", "Choice", "choice_of", "choices"]
+__all__ = ["CHOICES", "RIGHT", "Choice", "choice_of", "choices"]
 
 
 class Choice(NamedTuple):
@@ -34,7 +34,10 @@ CHOICES: dict[str, str] = {
     "linear": "The residual is an affine function of the state: J is the same everywhere, so a single step solves the "
     "problem from any start.",
 }
-"""Identifier -> text. That the list is public gives nothing away: it is printed in the handout."""
+"""Identifier -> text; the texts are printed in the handout, the identifiers are not."""
+
+RIGHT = "linear"
+"""The choice that explains it. The others are wrong, or true and beside the point."""
 
 
 def choices(variant: str) -> list[Choice]:

@@ -1,0 +1,149 @@
+"""The worked solution of one problem, for staff: a notebook that is also a submission, and a page to print."""
+
+from __future__ import annotations
+
+import ast
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import numpy as np
+
+from autograder.problems.conclusion import RIGHT, choices
+from autograder.problems.problem import Problem, worked_problem
+from autograder.render.facts import Solution, reference, solve
+from autograder.render.handout import PROVIDED, provided, write_files
+from autograder.render.notebook import render_notebook
+from autograder.render.stub import reference_source
+from autograder.render.template import fill
+from autograder.render.values import number, values
+
+__all__ = ["execute", "render_solution"]
+
+REMARKS = {
+    "reached_truth": "takes the minimum of the cost for the truth; show the RMSE that is left.",
+    "few_poses": "takes size for linearity; the same happens with a hundred poses.",
+    "good_start": "has not tried another start; the notebook has a cell for it.",
+    "loop_closed": "takes b = 0 for f = 0; show the residuals after the step.",
+    "float_noise": "reads rounding as progress; compare with the size of the measurements.",
+}
+SHOWN = {
+    "residual": "print(residual(my_start, my_graph))",
+    "jacobian": "print(jacobian(my_start, my_graph))",
+    "information_matrix": "print(np.diag(information_matrix(my_graph)))",
+    "normal_equations": "J, omega, f = jacobian(my_start, my_graph), information_matrix(my_graph), "
+    'residual(my_start, my_graph)\nH, b = normal_equations(J, omega, f)\nprint(tidy(H))\nprint("b =", tidy(b))',
+    "gauss_newton_step": "print(tidy(gauss_newton_step(my_start, my_graph)))",
+}
+
+
+def render_solution(problem: Problem) -> dict[str, str]:
+    """Render the worked solution of a problem with one loop.
+
+    Returns
+    -------
+    dict
+        File name -> text: the notebook, not yet executed, and the page.
+    """
+    source = reference_source()
+    nodes = [node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)]
+    filled = {
+        **values(problem),
+        **_matrices(problem),
+        "functions": {node.name: ast.get_source_segment(source, node) for node in nodes},
+        "shown": SHOWN,
+    }
+    return {
+        "slam1d.ipynb": render_notebook("solution.ipynb.j2", **filled),
+        "SOLUTION.md": fill("solution.md.j2", **filled),
+    }
+
+
+def execute(notebook: str) -> str:
+    """Run a notebook beside the provided files, and return it with its outputs; nothing in it tells when or where."""
+    from nbclient import NotebookClient  # noqa: PLC0415 - only those who render the solution need it
+
+    ran = nbformat.reads(notebook, as_version=4)  # type: ignore[no-untyped-call]
+    metadata = dict(ran.metadata)
+    with tempfile.TemporaryDirectory() as folder:
+        write_files({name: provided(name) for name in PROVIDED}, Path(folder))
+        NotebookClient(ran, timeout=120, resources={"metadata": {"path": folder}}).execute()
+    ran.metadata = metadata
+    for cell in ran.cells:
+        cell.metadata.pop("execution", None)
+    text: str = nbformat.writes(ran, version=4)  # type: ignore[no-untyped-call]
+    return text + "\n"
+
+
+def _matrices(problem: Problem) -> dict[str, Any]:
+    own, worked = solve(problem), solve(worked_problem())
+    b1 = own.J.T @ own.omega @ own.f1
+    listed = choices(problem.variant)
+    return {
+        "x0": _row(problem.start),
+        "f": _row(own.f),
+        "J": _matrix(own.J),
+        "omega": _row(np.diag(own.omega)),
+        "H": _matrix(own.H),
+        "b": _row(own.b),
+        "dx": _row(own.dx),
+        "H_dx": _row(own.H @ own.dx),
+        "x1": _row(own.x1),
+        "f1": _row(own.f1),
+        "b1": _row(b1),
+        "loop": _loop(problem, own),
+        "own": {
+            "rmse": f"{own.rmse:.3f}",
+            "rmse1": f"{own.rmse1:.3f}",
+            "cost": number(own.cost),
+            "cost1": number(own.cost1),
+            "largest": number(np.abs(own.dx).max()),
+        },
+        "right": next(choice for choice in listed if choice.identifier == RIGHT),
+        "wrong_choices": [
+            {"letter": choice.letter, "identifier": choice.identifier, "remark": REMARKS[choice.identifier]}
+            for choice in listed
+            if choice.identifier != RIGHT
+        ],
+        "errata": _errata(worked),
+    }
+
+
+def _loop(problem: Problem, own: Solution) -> dict[str, str]:
+    """Add up the one loop: the edge that disagrees at the start, and the edges that it spans."""
+    graph = problem.graph
+    edges = len(graph.edges)
+    closing = np.flatnonzero(np.abs(own.f[:edges]) > 1e-9)
+    if len(closing) != 1:
+        raise ValueError(f"the worked solution is written for one loop, got {len(closing)} edges that disagree")
+    low, high = sorted(graph.edges[closing[0]].tolist())
+    spanned = [low <= min(edge) and max(edge) <= high for edge in graph.edges.tolist()]
+    mismatch, total = -float(own.f[closing[0]]), float(graph.edge_variances[spanned].sum())
+    return {"mismatch": number(mismatch), "total": number(total), "current": number(mismatch / total)}
+
+
+def _errata(worked: Solution) -> dict[str, str]:
+    graph = worked_problem().graph
+    printed = worked.H.copy()
+    printed[3, 3] = 300.0
+    J = worked.J[: len(graph.edges)]
+    without_prior, _b = reference().normal_equations(J, np.eye(len(J)), worked.f[: len(J)])
+    return {
+        "H33": number(worked.H[3, 3]),
+        "left": number(abs((printed @ worked.dx + worked.b)[3])),
+        "prior_sd": number(graph.prior_variances[0] ** 0.5),
+        "ratio": f"{(graph.edge_variances[0] / graph.prior_variances[0]) ** 0.5:.2g}",
+        "rank": str(np.linalg.matrix_rank(without_prior)),
+        "x1": "(" + ", ".join(number(x) for x in worked.x1) + ")",
+        "poses": str(graph.n_poses),
+    }
+
+
+def _row(numbers: np.ndarray) -> str:
+    return "(" + r" \;\; ".join(number(value) for value in numbers) + ")"
+
+
+def _matrix(rows: np.ndarray) -> str:
+    body = r" \\ ".join(" & ".join(number(value) for value in row) for row in rows)
+    return rf"\begin{{pmatrix}} {body} \end{{pmatrix}}"
