@@ -215,3 +215,64 @@ STRATEGIES: dict[str, dict[str, SearchStrategy[Case]]] = {
     },
     "loops": {"single_loops": full_loops(), "loops_in_graphs": loops_in_graphs()},
 }
+
+
+# Small cases of whole numbers, for witnesses: what a student can redo by hand.
+
+_whole = st.integers(-3, 3).map(float)
+_tiny_variances = st.sampled_from((1.0, 2.0, 4.0))
+
+
+@st.composite
+def small_graphs(draw: DrawFn, low: int = 2, high: int = 3) -> Case:
+    """Draw a graph of two or three poses (or as told) with whole numbers; it shrinks to one without a loop."""
+    n = draw(st.integers(low, high))
+    pairs = _chain(n) + [_pair(draw, n) for _ in range(draw(st.integers(0, 2)))]
+    if draw(st.booleans()):
+        pairs = pairs[::-1]
+    priors = draw(st.lists(st.integers(0, n - 1), min_size=1, max_size=2))
+    k, p = len(pairs), len(priors)
+    graph = PoseGraph(
+        n,
+        np.array(pairs),
+        _numbers(draw, _whole, k),
+        _numbers(draw, _tiny_variances, k),
+        np.array(priors),
+        _numbers(draw, _whole, p),
+        _numbers(draw, _tiny_variances, p),
+    )
+    return _numbers(draw, _whole, n), graph
+
+
+@st.composite
+def small_matrices(draw: DrawFn) -> Case:
+    """Draw J, Omega and f of at most three rows and two columns, whole numbers."""
+    m, n = draw(st.integers(1, 3)), draw(st.integers(1, 2))
+    J = np.array(draw(_several(st.integers(-3, 3), m * n)), dtype=np.float64).reshape(m, n)
+    return _system(J, _numbers(draw, _tiny_variances, m), _numbers(draw, _whole, m))
+
+
+@st.composite
+def small_loops(draw: DrawFn) -> Case:
+    """Draw a loop of two or three poses and two states, whole numbers."""
+    n = draw(st.integers(2, 3))
+    pairs = [*_chain(n), (0, n - 1)]
+    graph = PoseGraph(
+        n,
+        np.array(pairs),
+        _numbers(draw, _whole, n),
+        _numbers(draw, _tiny_variances, n),
+        np.array([0]),
+        np.zeros(1),
+        np.ones(1),
+    )
+    states = np.array([_numbers(draw, _whole, n), _numbers(draw, _whole, n)])
+    assume(np.abs(states[0] - states[1]).max() >= 1.0)
+    return states, graph
+
+
+WITNESSES: dict[str, tuple[SearchStrategy[Case], ...]] = {
+    "graphs": (small_graphs(), small_graphs(4, 6)),
+    "matrices": (small_matrices(),),
+    "loops": (small_loops(),),
+}
