@@ -89,6 +89,8 @@ def _walk(folder: Path, parts: tuple[str, ...]) -> Iterator[tuple[Entry, bool]]:
         problem = f"is a folder that cannot be listed ({_reason(error)}); check its permissions"
         yield Entry(parts, str(folder), problem=problem, closed_folder=True), False
         return
+    if parts and any(item.name == "pyvenv.cfg" for item in found):
+        return  # an installed environment: thousands of files, none of them handed in
     for item in found:
         path, here = folder / item.name, (*parts, item.name)
         if item.is_symlink():
@@ -101,8 +103,8 @@ def _walk(folder: Path, parts: tuple[str, ...]) -> Iterator[tuple[Entry, bool]]:
             yield Entry(here, str(path), problem=_wrong_kind("a folder")), False
         else:
             yield Entry(here, str(path)), True
-            if is_noise(item.name) or (path / "pyvenv.cfg").exists():
-                continue  # also an installed environment: thousands of files, none of them handed in
+            if is_noise(item.name):
+                continue
             if len(here) > MAX_DEPTH:
                 raise UsageError(f"{folder.name} is nested over {MAX_DEPTH} folders deep; give one further down.")
             yield from _walk(path, here)

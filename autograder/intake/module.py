@@ -9,6 +9,7 @@ from autograder.errors import RejectedUpload
 
 MAX_SOURCE = 1 << 20  # bytes of source text, of a module or of all code cells of a notebook
 
+_TOO_LARGE = "is larger than 1 MiB, the limit for a .py file; remove data from the source"
 _COOKIE = re.compile(rb"[ \t\f]*#.*?coding[:=][ \t]*([-\w.]+)")  # PEP 263
 _BLANK = re.compile(rb"[ \t\f]*(?:#.*)?$")
 # Only encodings of text that decode without surprises; a cookie like "zlib" or "unicode_escape" names a program.
@@ -33,7 +34,7 @@ _SIGNATURES = (
 def read_module(data: bytes) -> str:
     """Decode the source of a module; raises RejectedUpload with the end of a sentence where it is no text."""
     if len(data) > MAX_SOURCE:
-        raise RejectedUpload("is larger than 1 MiB, the limit for a .py file; remove data from the source")
+        raise RejectedUpload(_TOO_LARGE)
     reject_foreign(data)
     if b"\0" in data:
         raise RejectedUpload("is a binary file (it holds zero bytes), expected Python source; hand in the source text")
@@ -46,6 +47,8 @@ def read_module(data: bytes) -> str:
         raise RejectedUpload(f"is not text in {encoding} (line {line}); save it as UTF-8 in your editor") from None
     except (LookupError, ValueError):
         raise RejectedUpload(f"declares the encoding {encoding}, which is not known here; save it as UTF-8") from None
+    if len(text.encode()) > MAX_SOURCE:
+        raise RejectedUpload(_TOO_LARGE)
     return one_newline(text)
 
 

@@ -57,6 +57,7 @@ def test_an_encoding_is_honoured_as_python_does(data: bytes, text: str | None) -
         (b"PK\x03\x04..", "is a zip archive; give it a name that ends in .zip"),
         (b"%PDF-1.7", "is a PDF document"),
         (b"x" * (MAX_SOURCE + 1), "is larger than 1 MiB"),
+        (b"# coding: latin-1\n# " + b"\xe9" * 700_000, "is larger than 1 MiB"),
     ],
 )
 def test_what_is_no_text_is_rejected_in_words(data: bytes, words: str) -> None:
