@@ -12,6 +12,8 @@ from autograder.problems.roster import Student, normal_id
 
 __all__ = ["Match", "Upload", "match"]
 
+_WORDS = re.compile(r"[^\W\d_]+")
+
 
 @dataclass(frozen=True)
 class Upload:
@@ -60,8 +62,9 @@ def match(
     """Match submissions to students, in the order in which they came.
 
     An id counts where it stands by itself, not inside a longer word; of two ids, one inside the
-    other, the longer counts. Where a folder or file name holds no id, an email address or a full
-    name of the roster that only one student has is taken instead.
+    other, the longer counts. Where a folder or file name holds no id, an email address of the
+    roster is taken instead, or a part between underscores that is the address up to its @ or a
+    full name; only where one student alone has it.
 
     Parameters
     ----------
@@ -108,29 +111,37 @@ class _Names:
     def __init__(self, students: Iterable[Student]) -> None:
         self._ids: dict[str, str] = {}
         addresses: defaultdict[str, set[str]] = defaultdict(set)
-        full: defaultdict[str, set[str]] = defaultdict(set)
+        parts: defaultdict[str, set[str]] = defaultdict(set)
         for student in students:
             self._ids[student.student_id.casefold()] = student.student_id
-            for address in filter(None, (student.email.casefold(), student.email.casefold().partition("@")[0])):
+            address = student.email.casefold()
+            if address:
                 addresses[address].add(student.student_id)
-            words = re.findall(r"[^\W\d_]+", _plain(student.name))
-            for order in {"".join(words), "".join(words[-1:] + words[:-1])} if len(words) > 1 else ():
-                full[order].add(student.student_id)
-        self._addresses = {text: ids.copy().pop() for text, ids in addresses.items() if len(ids) == 1}
-        self._full = {text: ids.copy().pop() for text, ids in full.items() if len(ids) == 1}
+                parts[address.partition("@")[0]].add(student.student_id)
+            words = _WORDS.findall(_plain(student.name))
+            if len(words) > 1:  # "Ann Lee" stands as ann lee, annlee or leeann, as the system likes it
+                parts["".join(words)].add(student.student_id)
+                parts["".join(words[-1:] + words[:-1])].add(student.student_id)
+        self._addresses = _unique(addresses)
+        self._parts = _unique(parts)
 
     def id_of(self, text: str) -> str | None:
         return self._ids.get(text.casefold())
 
     def names_in(self, text: str) -> list[str]:
-        """List the students that a text names: by ids, else by addresses, else by full names."""
+        """List the students that a text names: by ids, else by addresses, else by a whole part that is a name."""
         text = unicodedata.normalize("NFC", text).casefold()
         for names in (self._ids, self._addresses):
             found = _longest(text, names)
             if found:
                 return found
-        parts = {"".join(re.findall(r"[^\W\d_]+", _plain(part))) for part in re.split(r"_|--", text)}
-        return sorted({self._full[part] for part in parts if part in self._full})
+        parts = {form for part in text.split("_") for form in (part, "".join(_WORDS.findall(_plain(part))))}
+        return sorted({self._parts[part] for part in parts if part in self._parts})
+
+
+def _unique(names: Mapping[str, set[str]]) -> dict[str, str]:
+    """Keep what belongs to one student only."""
+    return {text: next(iter(ids)) for text, ids in names.items() if len(ids) == 1}
 
 
 def _longest(text: str, names: Mapping[str, str]) -> list[str]:
