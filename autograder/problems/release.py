@@ -74,9 +74,7 @@ class Released:
                 f"({_some(self.different)}); --force renders them again."
             )
         if self.gone:
-            lines.append(
-                f"{len(self.gone)} earlier students are not on the roster ({_some(self.gone)}); they keep all."
-            )
+            lines.append(f"{len(self.gone)} earlier students are not on the roster ({_some(self.gone)}); theirs stay.")
         lines += [f"{count} draws redrawn: {reason}." for reason, count in sorted(self.redrawn.items())]
         return "\n".join(lines)
 
