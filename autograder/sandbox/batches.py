@@ -172,7 +172,7 @@ class _Gathered:
             if (
                 type(item) is np.ndarray
                 and item.dtype is _FLOAT64
-                and item.size <= most
+                and 0 < item.size <= most
                 and item.ndim <= MAX_DIMENSIONS
             ):
                 flat.append((item.shape, item.tobytes(), Kind.FLOAT_ARRAY))

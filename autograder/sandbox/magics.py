@@ -9,7 +9,9 @@ _RUNS_THE_REST = frozenset({"time", "timeit", "capture", "prun", "memit", "mprun
 
 _CELL_MAGIC = re.compile(r"\s*%%(\w+)?")
 _RUNS_A_STATEMENT = re.compile(r"(\s*)%time\s+(\S.*)")
-_COMMAND = re.compile(r"(\s*)(?:[%!].*|\?{1,2}\s*[\w.*%]+\s*;?|%{0,2}[A-Za-z_][\w.*]*(?:\[\w+\])?\s*\?{1,2}\s*;?)\s*")
+_COMMAND = re.compile(
+    r"(\s*)(?:%{1,2}\s?(?:[A-Za-z_]\w*(?:\s.*)?)?|!(?!=).*|\?{1,2}\s*[\w.*%]+\s*;?|%{0,2}[A-Za-z_][\w.*]*(?:\[\w+\])?\s*\?{1,2}\s*;?)\s*"
+)
 _ASSIGNED = re.compile(r"(\s*)([A-Za-z_][\w.,\s\[\]'\"]*?)\s*=\s*(?:!|%\s*[A-Za-z]).*")
 
 

@@ -97,7 +97,9 @@ def _unpacked(frame: Any) -> int:
 
 
 def _subplots(nrows: int = 1, ncols: int = 1, *, squeeze: bool = True, **_: Any) -> tuple[Nothing, Any]:
-    axes = np.full((nrows, ncols), NOTHING, dtype=object)
+    axes = np.empty((nrows, ncols), dtype=object)
+    for place in np.ndindex(axes.shape):
+        axes[place] = NOTHING
     if squeeze:
         axes = axes.squeeze()
     return NOTHING, axes.item() if axes.ndim == 0 else axes
