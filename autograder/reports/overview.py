@@ -9,8 +9,9 @@ from typing import Any
 from urllib.parse import quote
 
 from autograder.reports.charts import histogram
+from autograder.reports.counterexample import counterexample_text
 from autograder.reports.html import page
-from autograder.reports.summary import stage_names, stage_summaries, troubles
+from autograder.reports.summary import Trouble, stage_names, stage_summaries, troubles
 from autograder.reports.wording import MARKS, points
 from autograder.verdicts import Result, StageVerdict
 
@@ -72,13 +73,29 @@ def class_page(results: Sequence[Result], record: Mapping[str, Any], course: str
         most=most,
         histogram=histogram(scores, most),
         summaries=sorted(stage_summaries(results), key=lambda s: s.mean / s.max_score if s.max_score else 1.0),
-        groups=[(t, [(name, link(name)) for name in t.submissions[:_WITNESSES]]) for t in listed[:_MOST_GROUPS]],
+        groups=[_group(trouble, results) for trouble in listed[:_MOST_GROUPS]],
         more_groups=len(listed[_MOST_GROUPS:]),
         nobody=nobody_passed(results),
         unusual=unusual(results),
         provisional=any(result.provisional for result in results),
         legend=[(MARKS[s][0], MARKS[s][1]) for s in MARKS if MARKS[s][0] and _used(results, s)],
     )
+
+
+def _group(trouble: Trouble, results: Sequence[Result]) -> tuple[Trouble, list[tuple[str, str]], str]:
+    """Give a group its first members and, where one of them has it, the case that shows the mistake."""
+    members = [result for result in results if result.submission in set(trouble.submissions[:_WITNESSES])]
+    name = trouble.stage.partition(" ")[0]
+    shown = (
+        check.counterexample
+        for result in members
+        for stage in result.stages
+        if stage.name == name
+        for check in stage.checks
+        if not check.passed and check.counterexample
+    )
+    witness = next((counterexample_text(example) for example in shown if example), "")
+    return trouble, [(name, link(name)) for name in trouble.submissions[:_WITNESSES]], witness
 
 
 def nobody_passed(results: Sequence[Result]) -> list[tuple[str, str, int]]:

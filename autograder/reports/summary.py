@@ -71,9 +71,10 @@ def mean_score(results: Iterable[Result]) -> float | None:
 def troubles(results: Iterable[Result]) -> list[Trouble]:
     """Group lost points by stage and reason, the most frequent first.
 
-    The reason is the recognised slip, or else the message, whatever its numbers; recognised slips stand
-    before the rest. Where the same submissions lost several stages for the same reason, these stages make
-    one group. A stage that is wrong only because an earlier one is does not count again.
+    The reason is the recognised slip; without one, those who answered alike stand together, and those
+    whose messages differ in their numbers only. Recognised slips stand before the rest. Where the same
+    submissions lost several stages for the same reason, these stages make one group. A stage that is wrong
+    only because an earlier one is does not count again.
     """
     order: dict[str, int] = {}
     words: dict[str, str] = {}
@@ -82,7 +83,7 @@ def troubles(results: Iterable[Result]) -> list[Trouble]:
         for stage in result.stages:
             order.setdefault(stage.name, len(order))
             if stage.status not in FULL and not is_consequence(stage):
-                key = (stage.name, stage.slip, _NUMBERS.sub("#", reason(stage)))
+                key = (stage.name, stage.slip, _kind(stage))
                 words.setdefault(key[2], reason(stage))
                 found.setdefault(key, []).append(result.submission)
     joined: dict[tuple[str | None, str, tuple[str, ...]], list[str]] = {}
@@ -93,6 +94,13 @@ def troubles(results: Iterable[Result]) -> list[Trouble]:
         Trouble(names[0] if len(names) == 1 else f"{names[0]} +{len(names) - 1}", slip, words[kind], submissions)
         for (slip, kind, submissions), names in listed
     ]
+
+
+def _kind(stage: StageVerdict) -> str:
+    """Tell mistakes apart: by the slip's name, by behaviour where numbers were wrong, else by the message."""
+    if not stage.slip and stage.group and stage.status in ("failed", "partial"):
+        return stage.group
+    return _NUMBERS.sub("#", reason(stage))
 
 
 def is_consequence(stage: StageVerdict) -> bool:

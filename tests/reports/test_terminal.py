@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 
+import msgspec
 import pytest
 
 from autograder.reports.summary import most_instructive, stage_summaries, troubles
@@ -79,6 +80,26 @@ def test_the_same_mistake_is_counted_once_for_all_who_made_it() -> None:
     listed = troubles(small_class())
     assert (listed[0].count, listed[0].stage, listed[0].reason) == (2, "jacobian", "loop sign flipped")
     assert [(t.stage, t.submissions) for t in listed if t.reason == "not written"] == [("residual +5", ("erin",))]
+
+
+def test_an_unnamed_mistake_is_shared_by_those_who_answered_alike() -> None:
+    """Behaviour tells unnamed mistakes apart, not the words of the message; an error is told by its kind."""
+    alike = [result(n, stage("jacobian", "failed", message=f"got {n}", group="g1")) for n in "ab"]
+    other = result("c", stage("jacobian", "failed", message="got a", group="g2"))
+    raised = [result(n, stage("residual", "error", message=f"raised IndexError: {n}", group=n)) for n in "12"]
+    listed = troubles([*alike, other, *raised])
+    assert [(t.stage, t.submissions) for t in listed] == [
+        ("residual", ("1", "2")),
+        ("jacobian", ("a", "b")),
+        ("jacobian", ("c",)),
+    ]
+
+
+def test_what_follows_from_an_earlier_mistake_is_not_counted_again() -> None:
+    """A step that solves the student's own equations is paid for in part, and no mistake of its own."""
+    step = stage("gauss_newton_step", "partial", 11.0)
+    checks = tuple(msgspec.structs.replace(check, points=1.0) for check in step.checks)
+    assert troubles([result("a", msgspec.structs.replace(step, checks=checks))]) == []
 
 
 def test_a_class_without_mistakes_has_no_list_of_them() -> None:
