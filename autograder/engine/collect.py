@@ -69,7 +69,7 @@ def collect(session: Session, plan: Plan) -> Collected:
         if stage.name == follow.STAGE:
             collected.own_systems = _own_systems(session, plan, collected)
         for task in tasks:
-            reply = _ask(session, plan, task)
+            reply = judged(session, plan, task, session.run(task.batch))
             collected.replies[task.batch] = reply
             if reply.failure is not None:  # the rest of the stage would end the same way
                 collected.replies.update({later.batch: reply for later in tasks if later.batch > task.batch})
@@ -77,8 +77,8 @@ def collect(session: Session, plan: Plan) -> Collected:
     return collected
 
 
-def _ask(session: Session, plan: Plan, task: Task) -> Reply:
-    outputs = session.run(task.batch)
+def judged(session: Session, plan: Plan, task: Task, outputs: Outputs | Failure) -> Reply:
+    """Ask the second round of a check, where it has one, and judge its cases."""
     if isinstance(outputs, Failure):
         return Reply(outputs)
     calls = task.stage.follow_up(task.prepared, outputs)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import msgspec
@@ -35,7 +35,8 @@ class Corpus:
     digest: str
 
 
-def draw_corpus(stages: Sequence[Stage], seed: int, examples: int) -> Corpus:
+@lru_cache(maxsize=8)
+def draw_corpus(stages: tuple[Stage, ...], seed: int, examples: int) -> Corpus:
     """Draw the cases of all ladders that the stages climb. Only the client of a run calls this."""
     from autograder.problems.draw import draw_ladder  # noqa: PLC0415 - needs hypothesis, which a worker never loads
 
@@ -45,7 +46,7 @@ def draw_corpus(stages: Sequence[Stage], seed: int, examples: int) -> Corpus:
 
 def _corpus(cases: dict[str, Rungs]) -> Corpus:
     plain = {
-        ladder: {rung: [[_plain(argument) for argument in case] for case in found] for rung, found in rungs.items()}
+        ladder: {rung: [plain_case(case) for case in found] for rung, found in rungs.items()}
         for ladder, rungs in cases.items()
     }
     data = msgspec.msgpack.encode(plain)
@@ -56,10 +57,20 @@ def load_corpus(data: bytes) -> Corpus:
     """Rebuild a corpus from its bytes."""
     plain = msgspec.msgpack.decode(data)
     cases = {
-        ladder: {rung: tuple(tuple(_value(item) for item in case) for case in found) for rung, found in rungs.items()}
+        ladder: {rung: tuple(case_of(case) for case in found) for rung, found in rungs.items()}
         for ladder, rungs in plain.items()
     }
     return Corpus(cases, data, hashlib.sha256(data).hexdigest())
+
+
+def plain_case(case: Case) -> list[Any]:
+    """Turn a case into lists and bytes that msgpack can carry."""
+    return [_plain(argument) for argument in case]
+
+
+def case_of(plain: list[Any]) -> Case:
+    """Rebuild a case from what `plain_case` made."""
+    return tuple(_value(item) for item in plain)
 
 
 def _plain(argument: Any) -> list[Any]:

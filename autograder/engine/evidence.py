@@ -67,7 +67,11 @@ def why(task: Task, index: int, reply: Reply) -> tuple[Outcome, str]:
     for call in range(first, first + len(calls)):
         outcome = Outcome(int(outputs.outcome[call]))
         if outcome is not Outcome.OK:
-            return outcome, _odd(function, outcome, outputs.reasons.get(call, ""))
+            reason = outputs.reasons.get(call, "")
+            if outcome is Outcome.BAD_VALUE and reason.startswith("shape"):  # too large to be sent at all
+                shapes = [array.shape for array in task.stage.expected(*calls[call - first])]
+                return outcome, f"{function} returned {reason}, expected {' and '.join(map(str, shapes))}."
+            return outcome, _odd(function, outcome, reason)
     got, expected = _arrays(task, index, reply), [array for call in calls for array in task.stage.expected(*call)]
     names = _PARTS.get(function, ("",)) * len(got)
     for name, array, wanted in zip(names, got, expected, strict=False):

@@ -9,16 +9,18 @@ from pathlib import Path
 from typing import Literal
 
 import msgspec
+from msgspec.structs import replace
 
 import autograder
 from autograder.course import LATER_POINTS, Course
 from autograder.engine.corpus import Corpus, draw_corpus
-from autograder.engine.local import Pool, default_workers
-from autograder.engine.store import RunRecord, Store, code_digest, fingerprint, versions
-from autograder.engine.worker import Graded, Orders, Trouble
+from autograder.engine.explain import wants_explanation
+from autograder.engine.explain_all import explain_all
+from autograder.engine.local import Answer, Pool, default_workers
+from autograder.engine.store import DRAFT, RunRecord, Store, code_digest, fingerprint, versions
+from autograder.engine.worker import Explained, Grade, Graded, Orders, Trouble
 from autograder.errors import SandboxError
 from autograder.intake.submission import Submission
-from autograder.sandbox.frames import Source
 from autograder.stages.catalogue import all_stages
 from autograder.verdicts import Result, StageVerdict
 
@@ -109,7 +111,7 @@ class _Grading:
         self.began = time.perf_counter()
         self.submissions = sorted(submissions, key=lambda one: one.id)
         self.course, self.settings, self.store, self.on_progress = course, settings, store, on_progress
-        self.stages = [stage for stage in all_stages() if stage.name in course.stages]
+        self.stages = tuple(stage for stage in all_stages() if stage.name in course.stages)
         self.points = {stage.name: course.points[stage.name] for stage in self.stages}
         self.results: dict[str, Result] = {}
         self.reused = 0
@@ -124,8 +126,8 @@ class _Grading:
                 assert pool.confinement is not None  # entering the pool waits for it
                 self.level = pool.confinement.level
                 self._require_level(pool.confinement.detail)
-                late = self._first_pass(pool)
-                self._confirm(pool, late)
+                self._confirm(pool, self._first_pass(pool))
+                explain_all(pool, self.submissions, self.results, self._finish_explained)
         except KeyboardInterrupt:
             interrupted = True
         record = self._record(interrupted)
@@ -156,7 +158,7 @@ class _Grading:
 
     def _first_pass(self, pool: Pool) -> list[int]:
         """Grade everything that has no result yet; return those that ran out of time."""
-        jobs: list[tuple[int, Source]] = []
+        jobs: list[tuple[int, Grade]] = []
         for index, submission in enumerate(self.submissions):
             known = None if self.settings.fresh else self.store.load(submission.id, self._fingerprint(submission))
             if known is not None:
@@ -165,14 +167,14 @@ class _Grading:
             elif submission.source is None:
                 self._finish(self._rejected(submission))
             else:
-                jobs.append((index, submission.source))
+                jobs.append((index, Grade(submission.source)))
         late: list[int] = []
 
-        def done(index: int, answer: Graded | Trouble) -> None:
+        def done(index: int, answer: Answer) -> None:
             if isinstance(answer, Graded) and answer.ran_out:
                 late.append(index)
             else:
-                self._finish(self._result(self.submissions[index], answer))
+                self._done(index, answer)
 
         pool.run(jobs, done)
         return sorted(late)
@@ -182,18 +184,33 @@ class _Grading:
         for index in late:
             submission = self.submissions[index]
             assert submission.source is not None  # it ran
-            pool.run(
-                [(index, submission.source)], lambda i, answer: self._finish(self._result(self.submissions[i], answer))
-            )
+            pool.run([(index, Grade(submission.source))], self._done)
 
-    def _result(self, submission: Submission, answer: Graded | Trouble) -> Result:
-        if isinstance(answer, Trouble):
-            return self._base(submission, status="grader_error", message=answer.message, score=None, seconds=0.0)
+    def _done(self, index: int, answer: Answer) -> None:
+        self._finish(self._result(self.submissions[index], answer))
+
+    def _finish_explained(self, submission: Submission, answer: Answer) -> None:
+        """Store the final result; where explaining went wrong, the verdicts stand as they were."""
+        draft = self.results[submission.id]
+        changed = {verdict.name: verdict for verdict in answer.verdicts} if isinstance(answer, Explained) else {}
+        stages = tuple(changed.get(verdict.name, verdict) for verdict in draft.stages)
+        final = replace(draft, stages=stages, fingerprint=draft.fingerprint.removesuffix(DRAFT))
+        self.store.save(final)
+        self.results[submission.id] = final
+
+    def _result(self, submission: Submission, answer: Answer) -> Result:
+        if not isinstance(answer, Graded):
+            message = answer.message if isinstance(answer, Trouble) else "The grader answered out of turn."
+            return self._base(submission, status="grader_error", message=message, score=None, seconds=0.0)
         bonus = sum(stage.score for stage in answer.stages if stage.bonus)
         score = sum(stage.score for stage in answer.stages if not stage.bonus) + bonus
+        fingerprint = self._fingerprint(submission)
+        if any(wants_explanation(stage) for stage in answer.stages):
+            fingerprint += DRAFT
         return self._base(
             submission,
             status="graded",
+            fingerprint=fingerprint,
             message="",
             score=round(min(score, max(self.course.bonus_cap, self.max_score)), 6),
             seconds=answer.seconds,

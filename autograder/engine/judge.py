@@ -72,8 +72,27 @@ class Judge:
             ]
         if status == "passed":
             return _verdict(stage, points, checks, status, remarks=remarks)
-        slip = self._recognise(stage, tasks, replies)
-        return _verdict(stage, points, checks, status, remarks=remarks, slip=slip, group=digest(tasks, replies))
+        followed = all(check.passed or check.points for check in checks)
+        slip = None if followed else self._recognise(stage, tasks, replies)
+        earlier = "" if followed else self._earlier(stage, collected)
+        return _verdict(
+            stage, points, checks, status, remarks=remarks, slip=slip, group=digest(tasks, replies), lead=earlier
+        )
+
+    def _earlier(self, stage: Stage, collected: Collected) -> str:
+        """Say which earlier functions are wrong, to somebody whose step may be wrong only because of them."""
+        if stage.function != follow.STAGE:
+            return ""
+        wrong = [
+            name
+            for name in follow.EARLIER
+            if any(
+                not reply.passed
+                for task in self.plan.tasks
+                if task.stage.name == name and (reply := collected.replies.get(task.batch)) is not None
+            )
+        ]
+        return f"Mend {' and '.join(wrong)} first, which the step builds on." if wrong else ""
 
     def _followed(
         self, check: CheckVerdict, task: Task, reply: Reply, points: float, own: dict[str, follow.Systems]
@@ -138,12 +157,12 @@ def _verdict(
     remarks: tuple[str, ...] = (),
     slip: Slip | None = None,
     group: str = "",
+    lead: str = "",
 ) -> StageVerdict:
     first = next((check for check in checks if not check.passed), None)
     score = points if first is None else round(sum(check.points for check in checks), 6)
     message = "" if first is None else first.message
-    if slip is not None:
-        message = f"{slip.name} {message}"
+    message = " ".join(part for part in ("" if slip is None else slip.name, lead, message) if part)
     return StageVerdict(
         name=stage.name,
         status="partial" if status != "passed" and score > 0 else status,

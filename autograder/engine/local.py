@@ -14,11 +14,11 @@ from typing import Any
 import msgspec
 
 from autograder.engine import worker
-from autograder.engine.worker import Graded, Ready, Trouble
+from autograder.engine.worker import Explained, Graded, Job, Ready, Trouble
 from autograder.errors import SandboxError
-from autograder.sandbox.frames import Source
 
 MAX_LOSSES = 2  # a submission whose worker is lost so often is given up
+Answer = Graded | Explained | Trouble
 MAX_FRAME = 64 * 1024 * 1024
 
 
@@ -77,10 +77,10 @@ class Pool:
                 each.process.join()
         self._workers.clear()
 
-    def run(self, jobs: Iterable[tuple[int, Source]], done: Callable[[int, Graded | Trouble], None]) -> None:
+    def run(self, jobs: Iterable[tuple[int, Job]], done: Callable[[int, Answer], None]) -> None:
         """Run all jobs, at most one a worker at a time; call `done` as each ends, in any order."""
         waiting = deque(jobs)
-        sources = dict(waiting)
+        known = dict(waiting)
         losses: dict[int, int] = {}
         while len(self._workers) < min(self.size, len(waiting)):
             self._workers.append(self._start())
@@ -100,7 +100,7 @@ class Pool:
                         continue
                     losses[job] = losses.get(job, 0) + 1
                     if losses[job] < MAX_LOSSES:
-                        waiting.appendleft((job, sources[job]))
+                        waiting.appendleft((job, known[job]))
                         continue
                     answer = Trouble("The worker process was lost twice while this submission ran.")
                 if answer is not None and job is not None:
@@ -122,12 +122,12 @@ class Pool:
         lost.process.join()
         return self._start()
 
-    def _give(self, each: _Worker, job: int, source: Source) -> None:
-        each.job = job
+    def _give(self, each: _Worker, number: int, job: Job) -> None:
+        each.job = number
         with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # noticed when its connection is read
-            each.connection.send_bytes(msgspec.msgpack.encode(source))
+            each.connection.send_bytes(msgspec.msgpack.encode(job))
 
-    def _receive(self, each: _Worker) -> Graded | Trouble | None:
+    def _receive(self, each: _Worker) -> Answer | None:
         message = worker.decode_message(each.connection.recv_bytes(MAX_FRAME))
         if isinstance(message, Trouble) and message.fatal:
             raise SandboxError(message.message)

@@ -17,6 +17,8 @@ import autograder
 from autograder.errors import UsageError
 from autograder.verdicts import Result, decode, encode
 
+DRAFT = "-draft"  # ends the fingerprint of a result that is judged, and not yet explained
+
 
 class RunRecord(msgspec.Struct, frozen=True, kw_only=True):
     """What run.json holds: everything that another run needs to be the same, and how long this one took."""
@@ -59,11 +61,14 @@ class Store:
             ) from None
 
     def load(self, submission: str, fingerprint: str) -> Result | None:
-        """Return the stored result if it is whole, from the same work, and not a fault of ours."""
+        """Return the stored result if it is whole, from the same work, and not a fault of ours.
+
+        A draft counts: it is judged, and only its explanation is missing.
+        """
         result = self.read(submission)
-        if result is None or result.fingerprint != fingerprint or result.status == "grader_error":
+        if result is None or result.status == "grader_error":
             return None
-        return result
+        return result if result.fingerprint in {fingerprint, fingerprint + DRAFT} else None
 
     def read(self, submission: str) -> Result | None:
         """Return the stored result whatever work it is from; None where there is none that can be read."""

@@ -7,11 +7,13 @@ import os
 import signal
 import time
 from multiprocessing.connection import Connection
+from typing import Any
 
 import msgspec
 
 from autograder.engine.collect import collect
-from autograder.engine.corpus import load_corpus
+from autograder.engine.corpus import case_of, load_corpus, plain_case
+from autograder.engine.explain import Explainer, Explanation
 from autograder.engine.judge import Judge
 from autograder.engine.plan import Plan, make_plan
 from autograder.errors import AutograderError
@@ -46,6 +48,27 @@ class Orders(msgspec.Struct, frozen=True):
         )
 
 
+class Grade(msgspec.Struct, frozen=True, tag=True):
+    """Ask to run and judge one submission."""
+
+    source: Source
+
+
+class Explain(msgspec.Struct, frozen=True, tag=True):
+    """Ask to explain wrong stages of one submission; `given` holds what its group knows already, or None."""
+
+    source: Source
+    verdicts: tuple[StageVerdict, ...]
+    given: tuple[Known | None, ...]
+
+
+class Known(msgspec.Struct, frozen=True):
+    """An explanation that can travel."""
+
+    facts: tuple[str, ...]
+    witness: list[Any] | None
+
+
 class Ready(msgspec.Struct, frozen=True, tag=True):
     """The worker's first message: the confinement that it gives."""
 
@@ -62,6 +85,13 @@ class Graded(msgspec.Struct, frozen=True, tag=True):
     seconds: float
 
 
+class Explained(msgspec.Struct, frozen=True, tag=True):
+    """The verdicts with their explanations, and these apart for the rest of the group."""
+
+    verdicts: tuple[StageVerdict, ...]
+    known: tuple[Known, ...]
+
+
 class Trouble(msgspec.Struct, frozen=True, tag=True):
     """The grader's own fault, in words."""
 
@@ -69,7 +99,8 @@ class Trouble(msgspec.Struct, frozen=True, tag=True):
     fatal: bool = False
 
 
-Message = Ready | Graded | Trouble
+Job = Grade | Explain
+Message = Ready | Graded | Explained | Trouble
 _decoder: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)
 
 
@@ -79,7 +110,7 @@ def decode_message(data: bytes) -> Message:
 
 
 def main(connection: Connection, orders: bytes) -> None:
-    """Serve until the other end closes: sources in, verdicts out."""
+    """Serve until the other end closes: jobs in, verdicts out."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's to handle
 
     def send(message: Message) -> None:
@@ -93,23 +124,54 @@ def main(connection: Connection, orders: bytes) -> None:
         except AutograderError as error:
             send(Trouble(str(error), fatal=True))
             return
-        judge = Judge(plan)
         with sandbox:
             send(Ready(sandbox.confinement.level, sandbox.confinement.detail))
+            examiner = _Examiner(plan, sandbox)
             while True:
-                source = msgspec.msgpack.decode(connection.recv_bytes(), type=Source)
-                send(_grade(judge, sandbox, source))
+                send(examiner.do(msgspec.msgpack.decode(connection.recv_bytes(), type=Job)))
 
 
-def _grade(judge: Judge, sandbox: Sandbox, source: Source) -> Message:
-    began = time.perf_counter()
-    try:
-        with sandbox.open(source) as session:
-            collected = collect(session, judge.plan)
-        stages = judge.judge(collected)
-    except Exception as error:
-        if os.environ.get("AUTOGRADER_DEBUG"):
-            raise
-        return Trouble(f"The grader failed ({type(error).__name__}: {error}).")
-    notes = tuple(f"{note.where}: {note.message}" for note in collected.loaded.notes)
-    return Graded(stages, notes, collected.ran_out, time.perf_counter() - began)
+class _Examiner:
+    """Does the jobs of one worker."""
+
+    def __init__(self, plan: Plan, sandbox: Sandbox) -> None:
+        self.sandbox = sandbox
+        self.plan = plan
+        self.judge = Judge(plan)
+        self.explainer = Explainer(plan)
+
+    def do(self, job: Job) -> Message:
+        """Do one job; whatever goes wrong here is the grader's fault, never a zero."""
+        try:
+            return self._grade(job.source) if isinstance(job, Grade) else self._explain(job)
+        except Exception as error:
+            if os.environ.get("AUTOGRADER_DEBUG"):
+                raise
+            return Trouble(f"The grader failed ({type(error).__name__}: {error}).")
+
+    def _grade(self, source: Source) -> Graded:
+        began = time.perf_counter()
+        with self.sandbox.open(source) as session:
+            collected = collect(session, self.plan)
+        stages = self.judge.judge(collected)
+        notes = tuple(f"{note.where}: {note.message}" for note in collected.loaded.notes)
+        return Graded(stages, notes, collected.ran_out, time.perf_counter() - began)
+
+    def _explain(self, job: Explain) -> Explained:
+        verdicts, known = [], []
+        with self.sandbox.open(job.source) as session:
+            session.load()
+            for verdict, given in zip(job.verdicts, job.given, strict=True):
+                shared = None if given is None else _explanation(given)
+                changed, explanation = self.explainer.explain(session, verdict, shared)
+                verdicts.append(changed)
+                known.append(_known(explanation))
+        return Explained(tuple(verdicts), tuple(known))
+
+
+def _explanation(known: Known) -> Explanation:
+    return Explanation(known.facts, None if known.witness is None else case_of(known.witness))
+
+
+def _known(explanation: Explanation) -> Known:
+    return Known(explanation.facts, None if explanation.witness is None else plain_case(explanation.witness))

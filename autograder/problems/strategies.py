@@ -219,7 +219,7 @@ STRATEGIES: dict[str, dict[str, SearchStrategy[Case]]] = {
 
 # Small cases of whole numbers, for witnesses: what a student can redo by hand.
 
-_whole = st.integers(-3, 3).map(float)
+_small = st.integers(-3, 3).map(float)
 _tiny_variances = st.sampled_from((1.0, 2.0, 4.0))
 
 
@@ -235,13 +235,13 @@ def small_graphs(draw: DrawFn, low: int = 2, high: int = 3) -> Case:
     graph = PoseGraph(
         n,
         np.array(pairs),
-        _numbers(draw, _whole, k),
+        _numbers(draw, _small, k),
         _numbers(draw, _tiny_variances, k),
         np.array(priors),
-        _numbers(draw, _whole, p),
+        _numbers(draw, _small, p),
         _numbers(draw, _tiny_variances, p),
     )
-    return _numbers(draw, _whole, n), graph
+    return _numbers(draw, _small, n), graph
 
 
 @st.composite
@@ -249,7 +249,7 @@ def small_matrices(draw: DrawFn) -> Case:
     """Draw J, Omega and f of at most three rows and two columns, whole numbers."""
     m, n = draw(st.integers(1, 3)), draw(st.integers(1, 2))
     J = np.array(draw(_several(st.integers(-3, 3), m * n)), dtype=np.float64).reshape(m, n)
-    return _system(J, _numbers(draw, _tiny_variances, m), _numbers(draw, _whole, m))
+    return _system(J, _numbers(draw, _tiny_variances, m), _numbers(draw, _small, m))
 
 
 @st.composite
@@ -260,13 +260,13 @@ def small_loops(draw: DrawFn) -> Case:
     graph = PoseGraph(
         n,
         np.array(pairs),
-        _numbers(draw, _whole, n),
+        _numbers(draw, _small, n),
         _numbers(draw, _tiny_variances, n),
         np.array([0]),
         np.zeros(1),
         np.ones(1),
     )
-    states = np.array([_numbers(draw, _whole, n), _numbers(draw, _whole, n)])
+    states = np.array([_numbers(draw, _small, n), _numbers(draw, _small, n)])
     assume(np.abs(states[0] - states[1]).max() >= 1.0)
     return states, graph
 

@@ -116,7 +116,7 @@ def test_a_damaged_result_is_not_believed(uploads, tmp_path, damage):
     grade(submissions, COURSE, SETTINGS, out)
     path = out / "results/ada.json"
     whole = path.read_bytes()
-    path.write_bytes(whole[: len(whole) // 2] if not damage else damage)
+    path.write_bytes(damage or whole[: len(whole) // 2])
     assert grade(submissions, COURSE, SETTINGS, out).results[0].score == 90
 
 
@@ -189,7 +189,9 @@ def test_a_time_out_is_confirmed_alone(uploads, tmp_path):
     """What ran out of time beside others is run once more by itself before it is believed."""
     (uploads / "slow.py").write_text("import time\n\ndef residual(x, graph):\n    while True:\n        pass\n")
     order = []
-    run = grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out", lambda progress: order.append(progress.submission))
+    run = grade(
+        collect([uploads]), COURSE, SETTINGS, tmp_path / "out", lambda progress: order.append(progress.submission)
+    )
     assert order[-1] == "slow"
     slow = run.results[-1]
     assert slow.stages[0].status == "timeout"
