@@ -6,7 +6,7 @@ round them. A mistake is a function of the problem and the start that returns th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +18,7 @@ from autograder.problems.family import Family
 from autograder.problems.stream import Stream
 from autograder.problems.variants import Variant
 
-__all__ = ["Mistake", "Sharpness", "mistaken", "sharpness", "unseen"]
+__all__ = ["Demand", "Mistake", "Sharpness", "mistaken", "sharpness", "unseen"]
 
 Mistake = Callable[[PoseGraph, np.ndarray], np.ndarray]
 
@@ -60,6 +60,30 @@ class Sharpness:
             lines.append("It cannot show these; the grader's own cases do:")
             lines += [f"  {name}" for name in sorted(self.blind)]
         return "\n".join(lines)
+
+
+class Demand:
+    """What a released variant must show: every known mistake that its family can show.
+
+    Parameters
+    ----------
+    families : iterable of Family
+        The families of the release; each is probed once.
+    mistakes : mapping
+        The known mistakes.
+    """
+
+    def __init__(self, families: Iterable[Family], mistakes: Mapping[str, Mistake]) -> None:
+        self._found = {family.label: sharpness(family, mistakes) for family in families if family.personal}
+        self._demanded = {label: {name: mistakes[name] for name in found.shown} for label, found in self._found.items()}
+
+    def accept(self, variant: Variant) -> bool:
+        """Whether all the mistakes that the family can show change the answer on this variant."""
+        return not unseen(variant, self._demanded[variant.family])
+
+    def text(self) -> str:
+        """Say for each family what it shows and what it cannot."""
+        return "\n\n".join(found.text() for found in self._found.values()) + "\n"
 
 
 def mistaken(right: Mapping[str, Callable[..., Any]], stage: str, wrong: Callable[..., Any]) -> Mistake:

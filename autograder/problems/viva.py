@@ -9,7 +9,7 @@ from autograder.problems.exact import decimal
 from autograder.problems.loops import solve_by_loops
 from autograder.problems.variants import Variant
 
-__all__ = ["Question", "viva"]
+__all__ = ["Question", "viva", "viva_text"]
 
 
 class Question(NamedTuple):
@@ -36,6 +36,12 @@ def viva(variant: Variant, count: int = 3) -> list[Question]:
         number, place = divmod(number, len(left))
         chosen.append(left.pop(place)(variant))
     return chosen
+
+
+def viva_text(variant: Variant, count: int = 3) -> str:
+    """Write the questions of a variant, each with its answer below."""
+    asked = enumerate(viva(variant, count), 1)
+    return "\n\n".join(f"{number}. {question}\n   Answer: {answer}" for number, (question, answer) in asked)
 
 
 def _mismatch(variant: Variant) -> Question:

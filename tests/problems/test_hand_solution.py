@@ -16,7 +16,7 @@ from autograder.problems.listing import describe, key_columns, key_row, right_le
 from autograder.problems.loops import solve_by_loops
 from autograder.problems.secret import Secret
 from autograder.problems.variants import Variant, draw_variant
-from autograder.problems.viva import viva
+from autograder.problems.viva import viva, viva_text
 
 SECRET = Secret(b"0123456789abcdef")
 
@@ -125,6 +125,7 @@ def test_oral_questions_are_about_the_students_numbers(letter: str, number: int)
     assert len({question for question, _ in questions}) == 3
     assert all(question.count("?") >= 1 and answer.endswith(".") for question, answer in questions)
     assert len(viva(variant, 99)) == 7
+    assert viva_text(variant).count("\n   Answer: ") == 3
 
 
 def test_the_answers_of_the_oral_questions_are_right() -> None:
