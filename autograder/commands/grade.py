@@ -178,7 +178,11 @@ def print_results(results: Sequence[Result], out: Path, as_json: bool) -> None:
 def exit_code(run: Run) -> int:
     """Return 130 for an interrupted run, 3 where something could not be graded, else 0."""
     if run.interrupted:
-        click.echo("autograder: Interrupted. The same command goes on from here.", err=True)
+        click.echo(
+            f"autograder: Interrupted: {len(run.results)} of {run.record.submissions} are graded and kept; "
+            "the same command goes on from there.",
+            err=True,
+        )
         return 130
     broken = [result.submission for result in run.results if result.status == "grader_error"]
     if broken:

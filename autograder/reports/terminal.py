@@ -28,6 +28,8 @@ def console(file: TextIO | None = None, width: int | None = None) -> Console:
 
 def print_class(results: Sequence[Result], to: Console) -> None:
     """Print the table, the class means, the legend and what went wrong most."""
+    if not results:
+        return
     for line in class_table(results, to.width):
         to.print(line)
     listed = went_wrong(results, to.width)
