@@ -111,6 +111,17 @@ def _hundred() -> Case:
     return _real(100, turned, [40, 3], 0.2)
 
 
+def _near() -> Case:
+    """Make a state near the minimum and far from the origin: x has large numbers, f small ones."""
+    _, made = _real(6, [(4, 3), (0, 1), (1, 2), (5, 4), (3, 2), (1, 4)], [2, 5], 0.25)
+    chain = [0.0, 1.3, 0.4, -1.2, 0.9, 2.2]
+    x = 30.0 + np.array(chain) + jitter(6, 0.8)
+    i, j = made.edges.T
+    measured = x[j] - x[i] + 0.2 * jitter(len(i), 0.15)
+    means = x[made.priors] + 0.2 * jitter(2, 0.45)
+    return x, PoseGraph(6, made.edges, measured, made.edge_variances, made.priors, means, made.prior_variances)
+
+
 WORKED_EXAMPLE: tuple[Case, ...] = (
     (_E.dead_reckoning(), _E),
     (_state(0, 0, 0, 0, 0), _E),
@@ -150,6 +161,7 @@ REAL_VALUED: tuple[Case, ...] = (
     _real(3, [(0, 1), (1, 2), (0, 2)], [0], 0.0),
     _real(4, [(2, 3), (1, 0), (1, 2), (0, 3)], [2, 0], 0.9),
     _real(8, [(3, 4), (0, 1), (5, 4), (1, 2), (2, 3), (6, 2), (5, 6), (6, 7), (1, 5)], [3, 0], 0.4),
+    _near(),
 )
 HUNDRED_POSES: tuple[Case, ...] = (_hundred(),)
 
@@ -189,16 +201,29 @@ LARGE: tuple[Case, ...] = (
     _system(4 * jitter(80 * 60, 0.3).reshape(80, 60), 0.3 * 50 ** (2 * jitter(80, 0.8)), 6 * jitter(80, 0.1)),
 )
 
-# A loop case: two states to start from, stacked, and the graph.
+
+# A loop case: two states to start from, stacked, and the graph. A step that is rounded to some decimals
+# shows only from a state with more of them, and one in single precision only with a prior that pulls weakly.
+def _real_loop(n_poses: int, edges: list[tuple[int, int]], prior: int, variance: float, salt: float) -> Case:
+    """Make a real-valued loop with one prior, and two states with irregular digits."""
+    x, made = _real(n_poses, edges, [prior], salt)
+    held = PoseGraph(n_poses, made.edges, made.measurements, made.edge_variances, [prior], made.prior_means, [variance])
+    return 0.1 * np.array([x, x[::-1] + jitter(n_poses, salt + 0.2)]), held
+
+
 WORKED_LOOP: tuple[Case, ...] = ((np.array([_E.dead_reckoning(), _state(1, -2, 3, 0.5, 4)]), _E),)
 FULL_LOOPS: tuple[Case, ...] = (
     (np.array([_state(0, 0), _state(3, -1)]), _TWICE),
     (np.array([_state(0, 0, 0), _state(1, -1, 4)]), _N),
     (np.array([_V.dead_reckoning(), _state(2, 0, -1, 3, 1)]), _V),
     (np.array([_state(0, 0, 0), _state(1, -1, 4)]), _SOFT),
+    _real_loop(3, [(0, 1), (1, 2), (0, 2)], 0, 0.02, 0.35),
+    _real_loop(4, [(0, 1), (1, 2), (2, 3), (0, 3)], 0, 20.0, 0.85),
 )
 INNER_LOOPS: tuple[Case, ...] = (
     (np.array([_state(0, 0, 0), _state(3, 1, -2)]), _ELSEWHERE),
     (np.array([_B.dead_reckoning(), _state(2, 0, 1, -1, 3)]), _B),
     (np.array([_state(0, 0, 0, 0, 0, 0), _state(2, 1, 3, 0, -1, 4)]), _I),
+    _real_loop(5, [(3, 4), (1, 0), (1, 2), (3, 2), (3, 1)], 4, 0.02, 0.6),
+    _real_loop(5, [(2, 3), (0, 1), (3, 1), (1, 2), (4, 3)], 4, 20.0, 0.5),
 )
