@@ -10,6 +10,7 @@ import struct
 import subprocess
 import sys
 from collections.abc import Collection
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -127,6 +128,11 @@ class Server:
         self._control.settimeout(_REPLY_SECONDS)
         return ready
 
+    @property
+    def pid(self) -> int:
+        """Process id of the fork server."""
+        return self._process.pid
+
     def fork(self, budget: Budget, output_bytes: int) -> tuple[Channel, int]:
         """Fork a child; it locks itself before it reads anything."""
         data, theirs = socket.socketpair()
@@ -145,8 +151,9 @@ class Server:
         return channel, pid
 
     def kill(self, pid: int) -> None:
-        """Have a child killed, and reaped when it is gone."""
-        self._ask(forkserver.KILL, pid)
+        """Have a child killed, and reaped when it is gone; without the fork server it is dead already."""
+        with suppress(SandboxError):
+            self._ask(forkserver.KILL, pid)
 
     def wait(self, pid: int) -> str:
         """Have a child killed if it still lives, wait for its end, and say how it ended."""
@@ -190,7 +197,7 @@ class Server:
         return data
 
     def _last_words(self) -> str:
-        if self._process.stderr is None or self._process.poll() is None:
+        if self._process.stderr is None or self._process.stderr.closed or self._process.poll() is None:
             return ""
         lines = self._process.stderr.read().decode("utf-8", "replace").strip().splitlines()
         return lines[-1] if lines else f"it ended with status {self._process.returncode}"

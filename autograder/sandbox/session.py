@@ -130,6 +130,8 @@ class Session:
         try:
             hello = channel.reply(frames.LOAD_BOUND, 10.0, nonce=0)
         except Ended as end:
+            if end.reason == "budget":
+                raise
             status = self._server.wait(self._pid)
             self._channel = None
             channel.close()
