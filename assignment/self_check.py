@@ -150,10 +150,11 @@ def _line(error: Exception) -> str:
 
 
 def _array(name: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    came = "None" if value is None else type(value).__name__
     try:
-        array = np.asarray(value, dtype=float)
+        array = np.asarray("" if value is None else value, dtype=float)
     except (TypeError, ValueError):
-        raise Wrong(f"{name} returned {type(value).__name__}, expected an array of shape {shape}.") from None
+        raise Wrong(f"{name} returned {came}, expected an array of shape {shape}.") from None
     if len(shape) == 1 and array.shape in ((shape[0], 1), (1, shape[0])):
         array = array.ravel()
     if array.shape != shape:
@@ -431,6 +432,8 @@ BONUS = ("sparsity_pattern", "range_factor")
 def failures(stage: str, namespace: dict[str, Any]) -> list[tuple[str, str]]:
     """List every check of a stage with what is wrong, "" where it passes; raises Unfinished."""
     student, found = Student(namespace), []
+    if stage == "iterates" and not isinstance(namespace.get("my_graph"), PoseGraph):
+        raise Unfinished("my_graph is not defined: run the cell that defines it, then this one again.")
     for prove in STAGES[stage]:
         wrong = ""
         for name, graph, x in student.problems():

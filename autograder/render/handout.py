@@ -81,7 +81,7 @@ def _title(picture: str) -> str:
     """Return title and description of a picture, as alternative text."""
     title = picture.partition("<title>")[2].partition("</title>")[0]
     description = picture.partition("<desc>")[2].partition("</desc>")[0]
-    return f"{title}. {description}"
+    return f"{title}. {description}".replace("[", "(").replace("]", ")")  # brackets would end the text in Markdown
 
 
 def write_files(files: dict[str, str], folder: Path) -> list[str]:

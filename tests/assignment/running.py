@@ -1,8 +1,8 @@
 """Run a notebook with a real kernel and look at what each cell printed."""
 
 import ast
+from copy import deepcopy
 
-import nbformat
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 
@@ -25,15 +25,15 @@ def paste(notebook, functions):
     return notebook
 
 
-def run(path, functions, folder):
-    """Run a notebook, alone in a folder or with what lies there, until its end or its first error.
+def run(notebook, functions, folder):
+    """Run a copy of a notebook, alone in a folder or with what lies there, until its end or its first error.
 
     Returns
     -------
     (notebook, stopped)
         The executed notebook, and the id of the cell that stopped it or None.
     """
-    notebook = paste(nbformat.read(path, as_version=4), functions)
+    notebook = paste(deepcopy(notebook), functions)
     client = NotebookClient(notebook, timeout=60, kernel_name="python3", resources={"metadata": {"path": str(folder)}})
     try:
         client.execute()

@@ -74,3 +74,63 @@ def test_right_work_passes_everything_quickly(self_check, capsys):
     assert len(lines) == sum(len(checks) for checks in self_check.STAGES.values())
     assert [line for line in lines if not line.startswith("PASS  ")] == []
     assert last == self_check.UNSEEN
+
+
+def test_the_words_are_the_graders(self_check):
+    """Rows, numbers and vectors are named in the self-check as the grader names them."""
+    for graph in (self_check.WORKED, self_check.PUBLIC["two priors"][1]):
+        for row in range(graph.n_factors):
+            assert self_check.factor(graph, row) == wording.factor(graph, row)
+    for value in (0.0, -0.0, 1200.0, 0.1 + 0.2, -2.5, 1e9):
+        assert self_check.number(value) == wording.number(value)
+    assert self_check.vector(np.array([1.0, -0.0, 2.5])) == wording.vector(np.array([1.0, -0.0, 2.5]))
+
+
+def test_an_older_python_can_read_it():
+    """Both provided files parse as Python 3.9, and import numpy and the standard library only."""
+    for name in ("self_check.py", "posegraph.py"):
+        tree = ast.parse((FILE.parent / name).read_text(encoding="utf-8"), feature_version=(3, 9))
+        imported = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+        imported |= {n.name for node in ast.walk(tree) if isinstance(node, ast.Import) for n in node.names}
+        assert {str(name).partition(".")[0] for name in imported} <= {*sys.stdlib_module_names, "numpy", "posegraph"}
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (lambda *_: None, "returned None, expected an array of shape (6,)"),
+        (lambda *_: "f", "returned str, expected an array of shape (6,)"),
+        (lambda x, _: x, "returned shape (5,), expected (6,)"),
+        (lambda *_: np.full(6, np.nan), "not finite"),
+        (lambda *_: 1 / 0, "raised ZeroDivisionError: division by zero (line"),
+    ],
+    ids=["none", "str", "shape", "nan", "raises"],
+)
+def test_odd_values_are_named(self_check, function, message):
+    """None, text, a wrong shape, nan and an error each give FAIL with what came and what was expected."""
+    found = self_check.failures("residual", {**right_work(), "residual": function})
+    assert all(message in wrong for _line, wrong in found)
+
+
+def test_unfinished_work_is_no_failure(self_check, capsys):
+    """A stub or a missing function is open work: TODO in the whole list, one sentence under its cell."""
+
+    def residual(x, graph):
+        raise NotImplementedError
+
+    with pytest.raises(self_check.Unfinished, match="residual is not finished yet"):
+        self_check.check("residual", {"residual": residual})
+    with pytest.raises(self_check.Unfinished, match="jacobian is not defined"):
+        self_check.check("jacobian", {})
+    self_check.check_all({})
+    assert [line[:4] for line in capsys.readouterr().out.splitlines()] == ["TODO"] * 7 + ["What"]
+
+
+def test_wrong_iterates_are_pointed_at(self_check):
+    """A row that does not follow from the row before is named, and so is a wrong shape."""
+    graph, x = self_check.WORKED, self_check.WORKED.dead_reckoning()
+    work = {**right_work(), "my_graph": graph, "my_start": x}
+    ((_, wrong),) = self_check.failures("iterates", {**work, "iterates": np.array([x, x, x, x])})
+    assert "row 1 of iterates" in wrong
+    ((_, wrong),) = self_check.failures("iterates", {**work, "iterates": np.zeros((2, 5))})
+    assert "expected (4, 5)" in wrong

@@ -1,0 +1,120 @@
+"""The notebooks run in a real kernel, alone in an empty folder: unfinished, finished, and with mistakes."""
+
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbformat.v4 import new_code_cell, new_notebook
+
+from autograder.problems.problem import worked_problem
+from autograder.render.facts import solve
+from autograder.render.handout import render_assignment
+from autograder.stages.slips import information_matrix
+from tests.assignment.running import reference_functions, run, text_of
+
+ROOT = Path(__file__).parents[2]
+
+pytestmark = pytest.mark.slow
+
+ITERATES = """
+states = [my_start]
+for _ in range(3):
+    states.append(states[-1] + gauss_newton_step(states[-1], my_graph))
+iterates = np.array(states)
+"""
+
+
+@pytest.fixture(scope="module")
+def notebooks():
+    """The notebooks as rendered for the worked example."""
+    rendered = render_assignment(worked_problem())
+    return {name: nbformat.reads(rendered[name], as_version=4) for name in ("slam1d.ipynb", "explore.ipynb")}
+
+
+@pytest.fixture(scope="module")
+def finished(notebooks, tmp_path_factory):
+    """The core notebook with the reference pasted in, executed from top to bottom; then explore beside it."""
+    folder = tmp_path_factory.mktemp("finished")
+    core = notebooks["slam1d.ipynb"]
+    next(cell for cell in core.cells if cell.id == "iterates").source = ITERATES
+    ran, stopped = run(core, reference_functions(), folder)
+    nbformat.write(ran, folder / "slam1d.ipynb")
+    explored, explore_stopped = run(notebooks["explore.ipynb"], reference_functions(), folder)
+    return ran, stopped, explored, explore_stopped
+
+
+def test_the_unfinished_notebook_stops_with_a_sentence(notebooks, tmp_path):
+    """Run all reaches the first check, which says what to do; there is no traceback."""
+    ran, stopped = run(notebooks["slam1d.ipynb"], {}, tmp_path)
+    assert stopped == "check-residual"
+    (error,) = next(cell for cell in ran.cells if cell.id == stopped).outputs
+    assert error.traceback == ["residual is not finished yet: write it, run its cell, then run this one again."]
+
+
+def test_the_finished_notebook_runs_to_its_end(finished):
+    """With the reference pasted in, every check passes and nothing stops."""
+    ran, stopped, _explored, _stopped = finished
+    assert stopped is None
+    lines = [line for cell in ran.cells if cell.id.startswith("check") for line in text_of(ran, cell.id).splitlines()]
+    assert len(lines) > 20
+    assert [line for line in lines if not line.startswith("PASS")] == [lines[-1]]
+    assert lines[-1].startswith("What this check cannot see")
+
+
+def test_the_notebook_shows_what_was_gained(finished):
+    """The table after the step ends with the RMSE that the facts know."""
+    solution = solve(worked_problem())
+    shown = text_of(finished[0], "compare")
+    assert f"RMSE: {solution.rmse:.3f} m -> {solution.rmse1:.3f} m" in shown
+
+
+def test_the_pictures_are_drawn(finished):
+    """Pose graph, patterns of J and H, residuals and chi-squared are SVG with title and description."""
+    pictures = {
+        cell.id: [output.data["image/svg+xml"] for output in cell.outputs if "image/svg+xml" in output.get("data", {})]
+        for cell in finished[0].cells
+        if cell.cell_type == "code"
+    }
+    assert {name: len(drawn) for name, drawn in pictures.items() if drawn} == {
+        "walk": 1,
+        "spy-j": 1,
+        "spy-h": 1,
+        "pictures": 2,
+    }
+    assert all("<title>" in text and "<desc>" in text for drawn in pictures.values() for text in drawn)
+
+
+def test_explore_runs_beside_the_finished_notebook(finished):
+    """The optional notebook loads the functions from the first one, and shows the numbers of the handout."""
+    _ran, _stopped, explored, stopped = finished
+    assert stopped is None
+    assert text_of(explored, "provided-load") == "using your functions from slam1d.ipynb\n"
+    sizes = re.findall(r"without, (\S+) with", text_of(explored, "twin-code"))
+    assert sizes == ["4.1e-01", "7.0e-03", "6.5e-05", "6.7e-07"]
+    assert text_of(explored, "gauge-code").startswith("rank 4 of 5")
+    assert "1527 new pairs" in text_of(explored, "fill-in-code")
+    assert "[0.032 0.095 0.114 0.114 0.095]" in text_of(explored, "marginals-code")
+
+
+def test_explore_alone_stops_with_a_sentence(notebooks, tmp_path):
+    """Without finished functions beside it, the optional notebook says what it needs."""
+    ran, stopped = run(notebooks["explore.ipynb"], {}, tmp_path)
+    assert stopped == "provided-load"
+    (error,) = next(cell for cell in ran.cells if cell.id == stopped).outputs
+    assert error.traceback[0].startswith("Finish the five functions")
+
+
+def test_every_slip_of_a_stage_fails_in_the_notebook(notebooks, tmp_path):
+    """Each catalogued mistake of the information matrix, put in its place, makes the check below say FAIL."""
+    core = notebooks["slam1d.ipynb"]
+    cells = [cell for cell in core.cells if cell.id in ("provided-files", "imports", "my-problem")]
+    load = f"import sys\nsys.path.append({str(ROOT)!r})\nfrom {information_matrix.__name__} import SLIPS"
+    cells.append(new_code_cell(load, id="load"))
+    for index in range(len(information_matrix.SLIPS)):
+        put = f"information_matrix = SLIPS[{index}].function"
+        cells.append(new_code_cell(f'{put}\ncheck("information_matrix", globals())', id=f"slip-{index}"))
+    ran, stopped = run(new_notebook(cells=cells), {}, tmp_path)
+    assert stopped is None
+    verdicts = {slip.identifier: text_of(ran, f"slip-{k}") for k, slip in enumerate(information_matrix.SLIPS)}
+    assert [name for name, text in verdicts.items() if "FAIL" not in text] == []

@@ -1,0 +1,115 @@
+"""The handout tells numbers that code worked out, for any problem, and keeps notation apart."""
+
+import re
+from importlib import resources
+
+import numpy as np
+import pytest
+
+from assignment.posegraph import PoseGraph
+from autograder.course import LATER_BONUS, LATER_POINTS, Course
+from autograder.problems.problem import Problem, worked_problem
+from autograder.render.facts import solve
+from autograder.render.handout import render_assignment
+from autograder.render.solution import render_solution
+from autograder.render.stub import reference_source
+from autograder.render.values import ANSWER_POINTS, POINTS
+
+TEMPLATES = resources.files("autograder.render") / "templates"
+NAMES = ["README.md.j2", "slam1d.ipynb.j2", *(f"parts/{p.name}" for p in (TEMPLATES / "parts").iterdir())]
+STAFF = ("parts/solution_", "parts/errata", "parts/provided")
+
+
+def another_problem():
+    """A problem that differs from the worked example in every number."""
+    graph = PoseGraph(
+        6,
+        np.array([(0, 1), (1, 2), (2, 3), (3, 4), (4, 5), (1, 4)]),
+        np.array([-0.8, -1.95, 1.45, 2.2, 1.05, 1.5]),
+        np.array([0.04, 0.01, 0.05, 0.04, 0.02, 0.01]),
+        np.array([0]),
+        np.array([2.5]),
+        np.array([0.002]),
+    )
+    return Problem("s1001", graph, graph.dead_reckoning().round(9) + 0.0, np.array([2.5, 2, 0, 1, 3, 4]))
+
+
+def answers(problem):
+    """Patterns of the iterates after the start, dx, b and a row of H, in any usual way of writing."""
+    solution = solve(problem)
+    for rows in (solution.x1, solution.dx, solution.b, solution.H[0]):
+        numbers = [re.escape(f"{round(float(value), 4) + 0.0:g}") for value in rows]
+        yield re.compile(r"(?<![\d.])" + r"\.?0*[,;\s&\\]+".join(numbers) + r"\.?0*(?![\d.])")
+
+
+def prose(name):
+    """The words of a template: no code cells, nothing that is filled in."""
+    text = (TEMPLATES / name).read_text(encoding="utf-8")
+    if name.endswith(".ipynb.j2"):
+        cells = re.split(r"^%% ", text, flags=re.MULTILINE)
+        text = "".join(cell for cell in cells if cell.startswith("markdown"))
+    return re.sub(r"<<.*?>>|<%.*?%>", "", text)
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith(STAFF)])
+def test_no_number_is_typed_in(name):
+    """The prose that students read holds no decimal number of its own: all are filled in."""
+    assert re.findall(r"\d+\.\d+", prose(name)) == []
+
+
+def test_the_points_are_those_of_the_course():
+    """The table of points agrees with the defaults of the course file."""
+    points = {**LATER_POINTS, **LATER_BONUS, **Course().points}
+    assert {name: points[name] for name in POINTS} == POINTS
+    assert points["answers"] == ANSWER_POINTS["iterates"] + ANSWER_POINTS["conclusion"]
+    assert points["written"] == ANSWER_POINTS["written_2"] + ANSWER_POINTS["written_3"]
+    assert points["sparsity_pattern"] == points["range_factor"] == ANSWER_POINTS["bonus"]
+
+
+def test_iterates_and_poses_never_share_notation():
+    """A lower index is a pose, an upper index in brackets an iterate: no bold x with a lower index, no x^2."""
+    for name in NAMES:
+        text = (TEMPLATES / name).read_text(encoding="utf-8")
+        assert re.findall(r"\\mathbf\{? ?x\}?_", text) == []
+        assert re.findall(r"x\^\d|x\^\{\d|[^\w]x[01]\b(?! >>)", text) == []
+
+
+@pytest.mark.parametrize("problem", [worked_problem(), another_problem()], ids=["worked", "another"])
+def test_no_answer_is_handed_out(problem):
+    """No rendered file holds an answer to the problem."""
+    for name, text in render_assignment(problem).items():
+        assert not any(answer.search(text) for answer in answers(problem)), name
+
+
+def test_the_search_for_answers_finds_them():
+    """In the worked solution, which is for staff, every one of them is found."""
+    text = render_solution(worked_problem())["SOLUTION.md"]
+    assert all(answer.search(text) for answer in answers(worked_problem()))
+
+
+def test_everything_follows_the_problem():
+    """Another problem gives other numbers in every file that speaks of it, and none of the worked example's data."""
+    files = render_assignment(another_problem())
+    for name in ("README.md", "slam1d.ipynb", "slam1d.py", "pose_graph.svg"):
+        assert "1.95" in files[name]
+    assert "`s1001`" in files["README.md"]
+    assert "-2.7" not in files["slam1d.py"]
+    assert "edge 1 to 4 measured 1.5 m" in files["pose_graph.svg"]
+
+
+def test_every_picture_of_the_handout_exists_and_has_words():
+    """Each picture is rendered with the handout, and its alternative text says what it shows."""
+    files = render_assignment(worked_problem())
+    pictures = re.findall(r"!\[([^\]]*)\]\(([^)]*)\)", files["README.md"])
+    assert {target for _words, target in pictures} == {name for name in files if name.endswith(".svg")}
+    assert all(len(words) > 30 for words, _target in pictures)
+
+
+def test_the_whole_is_short_enough():
+    """Reading the notebook takes about a quarter of an hour: at most 3000 words of prose at 200 a minute."""
+    assert len(prose("slam1d.ipynb.j2").split()) + sum(len(prose(n).split()) for n in NAMES if "parts/" in n) < 3000
+
+
+def test_no_private_name_of_the_reference_is_public():
+    """The reference has no private function whose text a stub would have to hide."""
+    assert not re.search(r"^def _", reference_source(), flags=re.MULTILINE)

@@ -1,0 +1,82 @@
+"""The worked solution is current, executed, and right."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from autograder.problems.conclusion import RIGHT, choice_of
+from autograder.problems.problem import worked_problem
+from autograder.render.facts import range_experiment, solve
+from autograder.render.solution import execute, render_solution
+from tests import witness
+from tests.render.test_handout import another_problem
+
+FOLDER = Path(__file__).parents[2] / "reference_solution"
+
+
+@pytest.fixture(scope="module")
+def rendered():
+    """The solution of the worked example, not executed."""
+    return render_solution(worked_problem())
+
+
+def test_the_page_is_current(rendered):
+    """The committed page is what rendering gives."""
+    assert (FOLDER / "SOLUTION.md").read_text(encoding="utf-8") == rendered["SOLUTION.md"]
+
+
+@pytest.mark.slow
+def test_the_notebook_is_current_and_executed(rendered):
+    """Running the rendered notebook gives the committed bytes, outputs included, and no error."""
+    text = execute(rendered["slam1d.ipynb"])
+    assert (FOLDER / "slam1d.ipynb").read_text(encoding="utf-8") == text
+    outputs = [output for cell in json.loads(text)["cells"] for output in cell.get("outputs", [])]
+    assert {output["output_type"] for output in outputs} == {"stream"}
+
+
+@pytest.mark.parametrize("problem", [worked_problem(), another_problem()], ids=["worked", "another"])
+def test_the_facts_agree_with_exact_arithmetic(problem):
+    """f, H, b and dx of the handout are those of rational numbers, which share no code with the reference."""
+    f, J, weights = witness.exact_problem(problem.start, problem.graph)
+    H, b = witness.exact_normal_equations(f, J, weights)
+    dx = witness.exact_solve(H, [-value for value in b])
+    facts = solve(problem)
+    for exact, told in ((f, facts.f), (b, facts.b), (dx, facts.dx), (sum(H, []), facts.H.ravel())):
+        assert told == pytest.approx([float(value) for value in exact], abs=1e-9)
+
+
+def test_the_range_experiment_is_that_of_the_issue():
+    """The steps of the twin shrink to 4.1e-1, 7.0e-3, 6.5e-5, 6.7e-7; on the line the second is zero."""
+    line, ranged = range_experiment()
+    assert [f"{size:.1e}" for size in ranged] == ["4.1e-01", "7.0e-03", "6.5e-05", "6.7e-07"]
+    assert max(line[1:]) < 1e-12
+
+
+def test_the_page_tells_the_printed_erratum(rendered):
+    """H[3, 3] is 200, not the printed 300, which would leave 30 in row 3; all 18 errata are listed."""
+    assert re.search(r"\| 1 \| .*300.* \| 200 \| .* by 30 \|", rendered["SOLUTION.md"])
+    assert re.findall(r"^\| (\d+) \| .*\|$", rendered["SOLUTION.md"].partition("## Errata")[2], re.MULTILINE) == [
+        str(row) for row in range(1, 19)
+    ]
+
+
+@pytest.mark.parametrize("problem", [worked_problem(), another_problem()], ids=["worked", "another"])
+def test_the_letter_is_that_of_the_variant(problem):
+    """The solution sets `conclusion` to the letter that the right choice has in this variant."""
+    source = render_solution(problem)["slam1d.ipynb"]
+    letter = re.search(r'conclusion = \\"([A-F])\\"', source).group(1)
+    assert choice_of(problem.variant, letter).identifier == RIGHT
+
+
+def test_a_problem_with_two_loops_is_refused():
+    """The circuit by hand is written for one loop; another problem is an error, not a wrong page."""
+    problem = another_problem()
+    graph = problem.graph
+    fields = {name: getattr(graph, name) for name in graph.__dataclass_fields__}
+    fields["measurements"] = graph.measurements + [0, 0, 0, 0, 0.5, 0]
+    fields["edges"] = [*graph.edges.tolist()[:4], (0, 5), (1, 4)]
+    fields["measurements"][4] += 0.25
+    with pytest.raises(ValueError, match="one loop"):
+        render_solution(type(problem)("two", type(graph)(**fields), problem.start, problem.truth))
