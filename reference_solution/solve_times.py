@@ -9,6 +9,7 @@ import importlib
 import json
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -48,8 +49,8 @@ def main() -> None:
         H = sparse.coo_matrix((values, (rows, columns)), shape=(n, n)).tocsc()
         full = H.toarray()
         times = 3 if n >= 1000 else 20
-        found["dense"].append((n, best_of(times, lambda full=full, b=b: np.linalg.solve(full, -b))))  # type: ignore[misc]
-        found["sparse"].append((n, best_of(times, lambda H=H, b=b: linalg.spsolve(H, -b))))  # type: ignore[misc]
+        found["dense"].append((n, best_of(times, partial(np.linalg.solve, full, -b))))
+        found["sparse"].append((n, best_of(times, partial(linalg.spsolve, H, -b))))
     rounded = {name: [(n, float(f"{seconds:.2g}")) for n, seconds in curve] for name, curve in found.items()}
     Path(__file__).with_name("solve_times.json").write_text(json.dumps(rounded) + "\n", encoding="utf-8")
 

@@ -21,7 +21,7 @@ _FOLDED = {"cellView": "form", "jupyter": {"source_hidden": True}, "tags": ["hid
 
 def render_notebook(template: str, **values: Any) -> str:
     """Fill a template and return the notebook as the text of an .ipynb file (nbformat 4.5)."""
-    text: str = nbformat.writes(build_notebook(fill(template, **values)), version=4)  # type: ignore[no-untyped-call]
+    text: str = nbformat.writes(build_notebook(fill(template, **values)), version=4)  # type: ignore[no-untyped-call]  # nbformat has no types
     return text + "\n"
 
 
@@ -61,7 +61,7 @@ def build_notebook(text: str) -> nbformat.NotebookNode:
     twice = {name for name in names if names.count(name) > 1}
     if twice:
         raise ValueError(f"every cell must have a name of its own, got {sorted(twice)} more than once")
-    notebook: nbformat.NotebookNode = new_notebook(  # type: ignore[no-untyped-call]
+    notebook: nbformat.NotebookNode = new_notebook(  # type: ignore[no-untyped-call]  # nbformat has no types
         cells=cells,
         metadata={
             "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},

@@ -64,7 +64,7 @@ def execute(notebook: str) -> str:
     """Run a notebook beside the provided files, and return it with its outputs; nothing in it tells when or where."""
     from nbclient import NotebookClient  # noqa: PLC0415 - only those who render the solution need it
 
-    ran = nbformat.reads(notebook, as_version=4)  # type: ignore[no-untyped-call]
+    ran = nbformat.reads(notebook, as_version=4)  # type: ignore[no-untyped-call]  # nbformat has no types
     metadata = dict(ran.metadata)
     with tempfile.TemporaryDirectory() as folder:
         write_files({name: provided(name) for name in PROVIDED}, Path(folder))
@@ -72,7 +72,7 @@ def execute(notebook: str) -> str:
     ran.metadata = metadata
     for cell in ran.cells:
         cell.metadata.pop("execution", None)
-    text: str = nbformat.writes(ran, version=4)  # type: ignore[no-untyped-call]
+    text: str = nbformat.writes(ran, version=4)  # type: ignore[no-untyped-call]  # nbformat has no types
     return text + "\n"
 
 
