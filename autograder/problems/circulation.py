@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 from autograder.problems.band import Band
 from autograder.problems.exact import ExactGraph
@@ -26,6 +27,7 @@ __all__ = ["Circulation", "Draw", "Pairs", "rounds_of"]
 Pairs = tuple[tuple[int, int], ...]
 PRIOR_VARIANCE = Fraction(1, 1000)
 ATTEMPTS = 100_000
+PRINTED = 300  # H[3, 3] as the source of the worked example misprints it: here it must not be right by accident
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,12 @@ class Circulation:
         weights = len(self.variances) ** variances * len(self.half_forces) ** len(self.loops)
         return int(states * weights)
 
+    @cached_property
+    def _limits(self) -> tuple[int, int]:
+        """Limits of chi-squared in 1/400: whole numbers, so that a trial is judged in whole numbers."""
+        low, high = self.band.chi_squared
+        return math.ceil(low * 400), math.floor(high * 400)
+
     def draw(self, stream: Stream) -> Draw:
         """Draw until a problem passes every filter.
 
@@ -114,10 +122,9 @@ class Circulation:
         if self.equal_variances:
             variances = [stream.pick(self.variances)] * edges
         else:
-            variances = [stream.pick(self.variances) for _ in range(edges)]
+            variances = stream.picks(self.variances, edges)
         forces = [0] * edges
-        for loop, path in enumerate(rounds):
-            force = stream.pick(self.half_forces)
+        for loop, (path, force) in enumerate(zip(rounds, stream.picks(self.half_forces, len(rounds)), strict=True)):
             forces[len(self.tree) + loop] = force
             for row, sign in path:
                 forces[row] -= sign * force
@@ -127,14 +134,14 @@ class Circulation:
                 if closing == variances[0] or len({closing, *(variances[row] for row, _ in path)}) < min(3, len(path)):
                     return None
         squares = [v * y * y for v, y in zip(variances, forces, strict=True)]  # residual^2 / variance, in 1/400
-        low, high = self.band.chi_squared
-        if max(squares) > 3600 or not low * 400 <= sum(squares) <= high * 400:
+        low, high = self._limits
+        if max(squares) > 3600 or not low <= sum(squares) <= high:
             return None
         if sum(map(bool, forces)) != self.band.products:
             return None
         scale = 10**self.band.decimals
         drops = [v * y * scale for v, y in zip(variances, forces, strict=True)]
-        if any(drop % 200 for drop in drops):
+        if any(drop % 200 for drop in drops) or self._information(3, variances) == PRINTED:
             return None
         return [drop // 200 for drop in drops], variances
 
@@ -147,9 +154,10 @@ class Circulation:
         mean = stream.pick(self.prior_means)
         truth, x1, start = [0] * size, [0] * size, [0] * size
         truth[0] = x1[0] = start[0] = math.floor(mean * grain)
-        for (i, j), drop in zip(self.tree, drops, strict=False):
-            truth[j] = truth[i] + stream.pick(self.steps) * grain
-            x1[j] = truth[j] + stream.pick(self.offsets) * grain // 10
+        steps, offsets = stream.picks(self.steps, size - 1), stream.picks(self.offsets, size - 1)
+        for (i, j), step, offset, drop in zip(self.tree, steps, offsets, drops, strict=False):
+            truth[j] = truth[i] + step * grain
+            x1[j] = truth[j] + offset * grain // 10
             start[j] = start[i] + x1[j] - x1[i] + drop
         edges = self.tree + self.loops
         u = [x1[j] - x1[i] + drop for (i, j), drop in zip(edges, drops, strict=True)]
@@ -173,6 +181,11 @@ class Circulation:
             prior_variances=(PRIOR_VARIANCE,),
         )
         return graph, tuple(Fraction(x, grain) for x in x1), tuple(Fraction(x, grain) for x in truth)
+
+    def _information(self, pose: int, variances: list[int]) -> Fraction:
+        """Add up the information of the edges at a pose: the diagonal entry of H there [1/m^2]."""
+        edges = zip(self.tree + self.loops, variances, strict=True)
+        return sum((Fraction(100, v) for pair, v in edges if pose in pair), Fraction(0))
 
     def _telling(self, u: list[int], x1: list[int], start: list[int]) -> bool:
         """Whether no known mistake can be right by accident.

@@ -185,10 +185,13 @@ def decimal(value: Fraction) -> str:
     >>> decimal(Fraction(-3, 20)), decimal(Fraction(2)), decimal(Fraction(1, 3))
     ('-0.15', '2', '1/3')
     """
-    digits = next((count for count in range(MOST_DIGITS) if 10**count % value.denominator == 0), None)
-    if digits is None:
-        return f"{value.numerator}/{value.denominator}"
-    if digits == 0:
-        return str(value.numerator)
-    whole, part = divmod(abs(value.numerator) * (10**digits // value.denominator), 10**digits)
-    return f"{'-' if value < 0 else ''}{whole}.{part:0{digits}d}"
+    numerator, denominator = value.numerator, value.denominator
+    if denominator == 1:
+        return str(numerator)
+    digits, power = 0, 1
+    while power % denominator:
+        if digits == MOST_DIGITS:
+            return f"{numerator}/{denominator}"
+        digits, power = digits + 1, power * 10
+    whole, part = divmod(abs(numerator) * (power // denominator), power)
+    return f"{'-' if numerator < 0 else ''}{whole}.{part:0{digits}d}"

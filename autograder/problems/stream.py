@@ -90,6 +90,11 @@ class Stream:
         """Draw one of the items."""
         return items[self.below(len(items))]
 
+    def picks(self, items: Sequence[T], count: int) -> list[T]:
+        """Draw one of the items so many times."""
+        below, size = self.below, len(items)
+        return [items[below(size)] for _ in range(count)]
+
     def order(self, count: int) -> tuple[int, ...]:
         """Draw an order of 0 .. count - 1, by Fisher and Yates."""
         items = list(range(count))

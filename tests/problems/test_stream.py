@@ -83,6 +83,14 @@ def test_the_first_numbers_are_pinned() -> None:
     assert stream.order(6) == (5, 3, 1, 2, 0, 4)
 
 
+@given(st.lists(st.integers(), min_size=1, max_size=300), st.integers(0, 20))
+def test_items_are_picked_by_numbers(items: list[int], count: int) -> None:
+    """Picking is drawing a number below the count of the items, one after the other."""
+    numbers, one, many = (Stream(KEY, "pick") for _ in range(3))
+    expected = [items[numbers.below(len(items))] for _ in range(count)]
+    assert [one.pick(items) for _ in range(count)] == many.picks(items, count) == expected
+
+
 @given(st.integers(0, 40))
 def test_an_order_is_a_permutation(count: int) -> None:
     """An order holds every number once."""
