@@ -24,7 +24,7 @@ EVIL = '"><script>alert(1)</script><b style="x">\u202e{{ 7 * 7 }}'
 def student(policy: str) -> str:
     """Write the page of one student with one wrong stage."""
     lost = stage("jacobian", "failed", 0.0, "MESSAGE 0.123", WRONG_J, hint="HINT", remarks=("REMARK",))
-    return feedback_page(result("alice", lost, notes=("NOTE",)), policy)  # type: ignore[arg-type]
+    return feedback_page(result("alice", lost, notes=("NOTE",)), policy)
 
 
 @pytest.mark.parametrize(
@@ -49,7 +49,7 @@ def test_a_page_shows_what_its_policy_allows(policy: str, shown: list[str], hidd
 @pytest.mark.parametrize("policy", POLICIES)
 def test_a_rejected_upload_has_its_reason_under_every_policy(policy: str) -> None:
     """A student who sent the wrong file must learn it."""
-    page = feedback_page(result("judy", status="rejected", message="judy.pdf is no notebook."), policy)  # type: ignore[arg-type]
+    page = feedback_page(result("judy", status="rejected", message="judy.pdf is no notebook."), policy)
     assert "judy.pdf is no notebook." in page
 
 
@@ -106,7 +106,7 @@ def test_everything_foreign_is_escaped() -> None:
     )
     lost = result("x" + EVIL, status="rejected", message=EVIL)
     for page in (
-        *(feedback_page(evil, policy, EVIL) for policy in POLICIES),  # type: ignore[arg-type]
+        *(feedback_page(evil, policy, EVIL) for policy in POLICIES),
         class_page([evil, lost], {"versions": {EVIL: EVIL}, "confinement": EVIL}, EVIL),
     ):
         assert "<script>alert" not in page
