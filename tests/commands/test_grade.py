@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import sys
 from collections.abc import Callable
@@ -11,7 +12,7 @@ from typing import Any
 import pytest
 
 from autograder import cli
-from autograder.commands._progress import Lines, line
+from autograder.commands._progress import Lines, line, progress
 from autograder.engine import grade as engine
 from autograder.errors import RejectedUpload, SandboxError, UsageError
 from autograder.verdicts import encode
@@ -150,3 +151,27 @@ def test_progress_lines_say_count_rate_and_time_left(capsys: pytest.CaptureFixtu
     shown = capsys.readouterr().err.splitlines()
     assert 3 <= len(shown) <= 6
     assert shown[-1].startswith("graded 100 of 100")
+
+
+class Terminal(io.StringIO):
+    """Text that claims to be a terminal."""
+
+    def isatty(self) -> bool:
+        """Say that somebody is watching."""
+        return True
+
+
+def test_a_terminal_gets_a_bar_with_count_rate_and_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The bar stands on one line, is gone at the end, and prints hostile names as text."""
+    for name, value in (("TERM", "xterm"), ("COLUMNS", "100")):
+        monkeypatch.setenv(name, value)
+    terminal = Terminal()
+    with progress(terminal) as report:
+        for done in range(1, 4):
+            report(engine.Progress(done, 3, 1, "[red]evil\x1b[2J"))
+    shown = terminal.getvalue()
+    assert "3/3" in shown
+    assert "/s" in shown
+    assert "[red]evil" in shown
+    assert "evil\x1b[2J" not in shown
+    assert shown.count("\n") <= 1

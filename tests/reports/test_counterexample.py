@@ -14,6 +14,7 @@ from autograder.reports.comparison import parts
 from autograder.reports.counterexample import counterexample_text
 from autograder.reports.picture import picture
 from autograder.reports.reproduce import call_text
+from autograder.reports.wording import number
 from tests.reports.examples import GRAPH, WRONG_J, WRONG_NORMAL
 
 
@@ -140,3 +141,50 @@ def test_the_call_can_be_pasted(x: list[float], measurements: list[float]) -> No
     assert (seen[0] == np.array(x)).all()
     assert seen[0].dtype == np.float64
     assert seen[1] == PoseGraph(**fields)
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "written"),
+    [
+        ("omega", [[2.0, 0.0], [0.0, 3.0]], "omega = np.diag([2.0, 3.0])"),
+        ("omega", [[2.0, 1.0], [1.0, 3.0]], "omega = np.array([[2.0, 1.0], [1.0, 3.0]])"),
+        ("omega", [[2.0, 0.0]], "omega = np.array([[2.0, 0.0]])"),
+        ("x", [float("inf"), 1], "x = np.array([np.inf, 1])"),
+        ("x", [0.0] * 30, "x = ...  # 30 entries, too many to show"),
+        ("step", 0.5, "step = 0.5"),
+        ("word", "a\x1bb", "word = a\\x1bb"),
+    ],
+)
+def test_an_input_is_written_as_python(key: str, value: Any, written: str) -> None:
+    """Diagonal matrices are short, long arrays are not printed, nothing foreign reaches the terminal raw."""
+    assert call_text({"function": "", key: value}) == written
+
+
+def test_a_ranging_is_written_as_python() -> None:
+    """A record of another kind is made by its own name."""
+    text = call_text({"function": "range_residual", "x": [0.5], "ranging": {"beacon": [1.0, 2.0], "poses": [0]}})
+    assert text.splitlines() == [
+        "ranging = Ranging(",
+        "    beacon=[1, 2],",
+        "    poses=[0],",
+        ")",
+        "x = np.array([0.5])",
+        "range_residual(x, ranging)",
+    ]
+
+
+def test_an_exception_instead_of_two_arrays_is_said_once() -> None:
+    """H and b are expected; what came instead stands above both."""
+    text = counterexample_text({**WRONG_NORMAL, "got": "raised KeyError: 'x'"})
+    assert text.count("KeyError") == 1
+    assert "H:\n  expected" in text
+    assert "b:\n  expected" in text
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [(float("nan"), "nan"), (float("-inf"), "-inf"), (10**12, "1e+12"), (True, "True"), ("nan", "nan"), (-1e-20, "0")],
+)
+def test_any_entry_is_shown(value: Any, shown: str) -> None:
+    """Whatever stands in a stored counterexample prints; rounding prints as 0."""
+    assert number(value, dust=1e-15) == shown
