@@ -118,7 +118,8 @@ def spy(entries: Sequence[Sequence[float]], name: str) -> str:
     rows, columns = len(entries), len(entries[0])
     side = max(1.3, min(26.0, 360.0 / max(rows, columns)))
     left, top = 34.0, 40.0
-    width, height = max(columns * side, 150.0) + 2 * left, rows * side + top + 20
+    caption = f"{name}: {sum(entry != 0 for row in entries for entry in row)} of {rows * columns} entries"
+    width, height = max(columns * side, 8.0 * len(caption)) + 2 * left, rows * side + top + 20
     frame = f'width="{_(columns * side)}" height="{_(rows * side)}"'
     parts = [f'<rect x="{left:g}" y="{top:g}" {frame} fill="white" stroke="{INK}"/>']
     filled = [(r, c) for r in range(rows) for c in range(columns) if entries[r][c] != 0]
@@ -130,7 +131,6 @@ def spy(entries: Sequence[Sequence[float]], name: str) -> str:
     if side > 14:
         parts += [_text(left + (c + 0.5) * side, top - 6, str(c)) for c in range(columns)]
         parts += [_text(left - 8, top + (r + 0.5) * side + 5, str(r), "end") for r in range(rows)]
-    caption = f"{name}: {len(filled)} of {rows * columns} entries"
     parts.append(_text(left, 18, caption, "start"))
     listed = "; ".join(f"row {r}: columns {', '.join(str(c) for q, c in filled if q == r)}" for r in range(rows))
     description = f"{rows} rows, {columns} columns." + (f" Not 0 in {listed}." if rows <= 12 else "")

@@ -71,8 +71,8 @@ def _pictures(problem: Problem) -> dict[str, str]:
     times = json.loads(resources.files("reference_solution").joinpath("solve_times.json").read_text(encoding="utf-8"))
     return {
         "pose_graph.svg": figure.pose_graph(graph.n_poses, edges, priors),
-        "landmarks_J.svg": figure.spy(J, "J of a corridor with landmarks"),
-        "landmarks_H.svg": figure.spy(H, "H of a corridor with landmarks"),
+        "landmarks_J.svg": figure.spy(J, "J with landmarks"),
+        "landmarks_H.svg": figure.spy(H, "H with landmarks"),
         "solve_times.svg": figure.curves("Time to solve H dx = -b", "poses", "time [s]", times, log_x=True),
     }
 

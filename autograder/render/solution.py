@@ -141,9 +141,10 @@ def _errata(worked: Solution) -> dict[str, str]:
 
 
 def _row(numbers: np.ndarray) -> str:
-    return "(" + r" \;\; ".join(number(value) for value in numbers) + ")"
+    return _matrix(numbers[np.newaxis])
 
 
 def _matrix(rows: np.ndarray) -> str:
-    body = r" \\ ".join(" & ".join(number(value) for value in row) for row in rows)
+    # \cr ends a row, not two backslashes: some Markdown readers take one of the two for their own escape.
+    body = r" \cr ".join(" & ".join(number(value) for value in row) for row in rows)
     return rf"\begin{{pmatrix}} {body} \end{{pmatrix}}"
