@@ -91,15 +91,17 @@ def _match(upload: Upload, known: _Names, owners: Mapping[str, str]) -> Match:
     *folders, file = [part for part in upload.path.replace("\\", "/").split("/") if part not in {"", ".", ".."}] or [""]
     stem = file.rpartition(".")[0] or file
     places = [("folder", folder) for folder in reversed(folders)] + [("file name", stem)]
+    stated = normal_id(upload.metadata)
+    owner = known.id_of(stated) or known.id_of(owners.get(stated, ""))
     note = ""
     for by, text in places:
         names = known.names_in(text)
         if len(names) == 1:
+            if owner not in {None, names[0]}:
+                note = _join(note, f"the notebook metadata name {owner}")
             return Match(upload.submission, names[0], by, note)
         if names:
             note = _join(note, f"the {by} names {' and '.join(names)}")
-    stated = normal_id(upload.metadata)
-    owner = known.id_of(stated) or known.id_of(owners.get(stated, ""))
     if owner is not None:
         return Match(upload.submission, owner, "notebook metadata", note)
     return Match(upload.submission, None, "", _join(note, "it names nobody of the roster"))

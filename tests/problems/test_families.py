@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from fractions import Fraction
 from pathlib import Path
@@ -15,7 +16,8 @@ from autograder.errors import UsageError
 from autograder.problems import families as package
 from autograder.problems.band import Band
 from autograder.problems.circulation import Circulation
-from autograder.problems.families import families, family, names
+from autograder.problems.families import families, family, names, unequal_variances
+from autograder.problems.family import Options
 from autograder.problems.ledger import Ledger
 from autograder.problems.secret import Secret
 from autograder.problems.stream import Stream
@@ -180,12 +182,22 @@ def test_a_bad_option_says_what_fits(text: str, words: str) -> None:
     assert words in str(caught.value)
 
 
+def test_a_family_needs_a_loop() -> None:
+    """Without a loop there is nothing to correct."""
+    with pytest.raises(UsageError, match="Option loops is empty"):
+        unequal_variances.family(Options(loops=()))
+
+
 def test_the_band_finds_what_is_wrong() -> None:
     """A wrong answer, a missing prior and numbers out of the band are each said."""
     chosen = family("A")
     draw = chosen.draw(Stream(b"wrong"))
     wrong = (draw.x1[0] + 1, *draw.x1[1:])
     assert "x1 is not the solution: b(x1) is not zero." in chosen.band.complaints(draw.graph, wrong)
+    floating = dataclasses.replace(draw.graph, priors=(), prior_means=(), prior_variances=())
+    assert "The problem is not well-posed: every connected part must have a prior" in " ".join(
+        chosen.band.complaints(floating, draw.x1)
+    )
     strict = Band(6, 2, 4, 1, (0, 0), (Fraction(0), Fraction(1, 100)))
     assert len(strict.complaints(draw.graph, draw.x1)) == 6
     example = family("E").draw(Stream(b""))

@@ -63,6 +63,7 @@ def test_metadata_come_last() -> None:
         Upload("d", "hw/d.ipynb", "A-999"),
     ]
     found = match(uploads, CLASS, {"A-123": "zoë"})
+    assert found[1].note == "the notebook metadata name s10"
     assert [(item.student_id, item.by) for item in found] == [
         ("s10", "notebook metadata"),
         ("s1", "folder"),
