@@ -99,7 +99,7 @@ def troubles(results: Iterable[Result]) -> list[Trouble]:
 def _kind(stage: StageVerdict) -> str:
     """Tell mistakes apart: by the slip's name, by behaviour where numbers were wrong, else by the message."""
     if not stage.slip and stage.group and stage.status in ("failed", "partial"):
-        return stage.group
+        return f"{stage.name} {stage.group}"
     return _NUMBERS.sub("#", reason(stage))
 
 

@@ -6,6 +6,7 @@ others have marks. Without colour and through a pipe the same characters come ou
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable, Sequence
 from typing import TextIO
 
@@ -31,6 +32,8 @@ def print_class(results: Sequence[Result], to: Console) -> None:
     if not results:
         return
     for line in class_table(results, to.width):
+        to.print(line)
+    for line in not_graded(results, to.width):
         to.print(line)
     listed = went_wrong(results, to.width)
     if listed:
@@ -82,6 +85,23 @@ def class_table(results: Sequence[Result], width: int) -> list[Text]:
     lines.append(_rule(name_width + marks_width + status + 10))
     lines += _means(results, stages, widths, name_width, status)
     return [*lines, *key, *_legend(results, width)]
+
+
+def not_graded(results: Sequence[Result], width: int, most: int = 8) -> list[Text]:
+    """Give the whole reason of each submission without marks; the table has room for its beginning only."""
+    reasons = [
+        f"{visible(result.submission)}: {visible(result.message)}"
+        for result in results
+        if result.status != "graded" and result.message
+    ]
+    if not reasons:
+        return []
+    lines = [Text(), Text("Not graded", style="bold")]
+    for reason in reasons[:most]:
+        lines += [Text(line) for line in textwrap.wrap(reason, width, initial_indent="  ", subsequent_indent="    ")]
+    if len(reasons) > most:
+        lines.append(Text(f"  and {len(reasons) - most} more, see results/", style="dim"))
+    return lines
 
 
 def went_wrong(results: Sequence[Result], width: int, most: int = 10) -> list[Text]:

@@ -60,6 +60,17 @@ def test_a_submission_that_was_not_graded_has_its_reason_in_the_line() -> None:
     assert kim.endswith(" --")
 
 
+def test_the_whole_reason_stands_below_the_table() -> None:
+    """What is cut in the table is told in full, up to eight times."""
+    lost = [
+        result(f"s{k}", status="rejected", message="It is no notebook, " + "because of this " * 8) for k in range(10)
+    ]
+    text = printed(lost, 80)
+    assert " ".join(text.split()).count("because of this " * 8) == 8
+    assert "and 2 more" in text
+    assert max(map(len, text.splitlines())) <= 80
+
+
 def test_means_are_over_graded_submissions_only() -> None:
     """Rejected uploads and our own faults do not lower the class mean."""
     summaries = {s.name: s for s in stage_summaries(small_class())}
