@@ -98,7 +98,7 @@ class Circulation:
     def draw(self, stream: Stream) -> Draw:
         """Draw until a problem passes every filter.
 
-        Each trial is drawn whole, so all problems that pass are equally likely.
+        A trial that fails is thrown away as a whole, so all problems that pass are equally likely.
 
         Raises
         ------

@@ -124,7 +124,9 @@ def release(
     UsageError
         Where the folder belongs to another secret or term, or cannot be written.
     """
-    labels = {family_of(text).label: weight for text, weight in mix.items()}
+    labels: Counter[str] = Counter()
+    for text, weight in mix.items():
+        labels[family_of(text).label] += weight
     if not labels or min(labels.values()) < 0 or sum(labels.values()) < 1:
         raise UsageError(f"The mix of families is {dict(mix)}; expected at least one family with a positive weight.")
     try:
