@@ -34,6 +34,11 @@ class Child:
         self._submission: Submission | None = None
         self._ballast: bytearray | None = None
 
+    @property
+    def traced(self) -> bool:
+        """Whether the fork server answers for the filter."""
+        return self._lock.trace and not self._lock.seccomp
+
     def live(self, parent: int, data: int, output: int) -> NoReturn:
         """Lock this process and answer requests until the channel closes."""
         try:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 MESSAGE = struct.Struct("<cq")
 STATUS = struct.Struct("<qqq")  # wait status, CPU time in microseconds, largest memory in KiB
-FORK, KILL, WAIT = b"F", b"K", b"W"
+FORK, KILL, WAIT, REFUSED = b"F", b"K", b"W", b"R"
 _PATIENCE = 500  # milliseconds between looks at whether the grader is still there
 _TOKEN = struct.calcsize("i")
 
@@ -62,7 +62,7 @@ def _set_up(setup: Any) -> tuple[Child, Any]:
     sys.path.clear()
     sys.path_importer_cache.clear()
     furnish()
-    lock = Lock(setup.memory_mib << 20, setup.cpu_seconds, frozenset(setup.without))
+    lock = Lock(setup.memory_mib << 20, setup.cpu_seconds, frozenset(setup.without), setup.trace)
     lock.prepare()
     del inputs
     gc.collect()
@@ -86,9 +86,12 @@ def _loop(control: socket.socket, grader: int, child: Child) -> None:
     poll = select.poll()
     poll.register(control, select.POLLIN)
     dying: set[int] = set()
+    refusals = Refusals(poll)
     while True:
         dying = {pid for pid in dying if os.waitpid(pid, os.WNOHANG)[0] == 0}
-        if not poll.poll(20 if dying else _PATIENCE):
+        ready = [descriptor for descriptor, _ in poll.poll(20 if dying else _PATIENCE)]
+        refusals.answer(ready)
+        if control.fileno() not in ready:
             if os.getppid() != grader:
                 return
             continue
@@ -97,13 +100,9 @@ def _loop(control: socket.socket, grader: int, child: Child) -> None:
             return
         operation, pid = MESSAGE.unpack(message)
         if operation == FORK:
-            data, output = struct.unpack("2i", ancillary[0][2])
-            me = os.getpid()
-            pid = os.fork()
-            if pid == 0:
-                child.live(me, data, output)
-            os.close(data)
-            os.close(output)
+            pid = _fork(child, *struct.unpack("2i", ancillary[0][2]))
+            if child.traced:
+                refusals.watch(pid)
             control.sendall(MESSAGE.pack(FORK, pid))
         elif operation == KILL:
             os.kill(pid, signal.SIGKILL)
@@ -113,6 +112,52 @@ def _loop(control: socket.socket, grader: int, child: Child) -> None:
             _, status, usage = os.wait4(pid, 0)
             microseconds = int(1e6 * (usage.ru_utime + usage.ru_stime))
             control.sendall(STATUS.pack(status, microseconds, usage.ru_maxrss))
+        elif operation == REFUSED:
+            control.sendall(refusals.taken())
+
+
+def _fork(child: Child, data: int, output: int) -> int:
+    me = os.getpid()
+    pid = os.fork()
+    if pid == 0:
+        child.live(me, data, output)
+    os.close(data)
+    os.close(output)
+    return pid
+
+
+class Refusals:
+    """The system calls that traced children were refused."""
+
+    def __init__(self, poll: select.poll) -> None:
+        self._poll = poll
+        self._tracers: dict[int, Any] = {}
+        self._numbers: list[int] = []
+
+    def watch(self, pid: int) -> None:
+        """Answer from now on for this child's filter."""
+        from .child import DATA  # noqa: PLC0415  # as above
+        from .tracing import Tracer  # noqa: PLC0415  # only while tracing
+
+        tracer = Tracer(pid, DATA + 1)
+        self._tracers[tracer.descriptor] = tracer
+        self._poll.register(tracer.descriptor, select.POLLIN)
+
+    def answer(self, ready: list[int]) -> None:
+        """Refuse what waits on these descriptors, and note it."""
+        for descriptor in ready:
+            if descriptor in self._tracers:
+                number = self._tracers[descriptor].answer()
+                if number is not None:
+                    self._numbers.append(number)
+                else:
+                    self._poll.unregister(descriptor)
+                    self._tracers.pop(descriptor).close()
+
+    def taken(self) -> bytes:
+        """Give all numbers noted since the last time, behind their count."""
+        numbers, self._numbers = self._numbers, []
+        return struct.pack(f"<I{len(numbers)}q", len(numbers), *numbers)
 
 
 def _receive(control: socket.socket) -> bytes:

@@ -234,6 +234,7 @@ class Setup(Frame, tag="setup"):
     memory_mib: int
     cpu_seconds: int
     without: list[str]
+    trace: bool
 
 
 class Ready(Frame, tag="ready"):

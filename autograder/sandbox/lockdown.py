@@ -29,6 +29,8 @@ _NET_RIGHTS, _NET_ABI = 0b11, 4
 _SCOPES, _SCOPE_ABI = 0b11, 6
 _CAP_VERSION_3 = 0x20080522
 _CAPSET = {"x86_64": 126, "aarch64": 91}
+_SECCOMP = {"x86_64": 317, "aarch64": 277}
+_SET_MODE_FILTER, _NEW_LISTENER = 1, 8
 
 
 class _Program(ctypes.Structure):
@@ -50,6 +52,7 @@ class Lock:
     memory: int  # bytes above the size that the fork server has
     cpu_seconds: int
     without: frozenset[str] = frozenset()
+    trace: bool = False  # let the fork server refuse, so that it can say what was refused
     seccomp: str = ""
     landlock: str = ""
     abi: int = 0
@@ -67,7 +70,8 @@ class Lock:
             return
         self._libc = ctypes.CDLL(None, use_errno=True)
         _drop_capabilities(self._libc)
-        self._libc.prctl(_PR_SET_DUMPABLE, 0, 0, 0, 0)
+        if not self.trace:
+            self._libc.prctl(_PR_SET_DUMPABLE, 0, 0, 0, 0)
         self.seccomp = self._prepare_seccomp()
         self.landlock = self._prepare_landlock()
 
@@ -79,7 +83,8 @@ class Lock:
             return f"no table of system calls for {machine}"
         if self._libc.prctl(_PR_GET_SECCOMP, 0, 0, 0, 0) < 0:
             return f"refused by the kernel ({os.strerror(ctypes.get_errno())})"
-        code = seccomp.program(seccomp.ARCHITECTURES[machine])
+        otherwise = seccomp.RET_USER_NOTIF if self.trace else seccomp.RET_REFUSE
+        code = seccomp.program(seccomp.ARCHITECTURES[machine], otherwise)
         self._instructions = ctypes.create_string_buffer(seccomp.encode(code))
         self._program = _Program(len(code), ctypes.addressof(self._instructions))
         return ""
@@ -122,7 +127,11 @@ class Lock:
         os.closerange(keep, _open_limit())
         if "rlimits" not in self.without:
             self._limit()
-        if self._libc is not None and not self.seccomp:
+        if self._libc is not None and not self.seccomp and self.trace:
+            number = _SECCOMP[os.uname().machine]
+            listener = self._libc.syscall(number, _SET_MODE_FILTER, _NEW_LISTENER, ctypes.byref(self._program))
+            self._call("seccomp", 0 if listener == keep else -1)
+        elif self._libc is not None and not self.seccomp:
             result = self._libc.prctl(_PR_SET_SECCOMP, _MODE_FILTER, ctypes.byref(self._program), 0, 0)
             self._call("PR_SET_SECCOMP", result)
 

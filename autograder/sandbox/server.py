@@ -79,7 +79,7 @@ def confinement_of(ready: frames.Ready) -> Confinement:
 class Server:
     """The fork server's process and the control channel to it."""
 
-    def __init__(self, inputs: bytes, limits: Limits, without: Collection[str] = ()) -> None:
+    def __init__(self, inputs: bytes, limits: Limits, without: Collection[str] = (), *, trace: bool = False) -> None:
         if sys.platform == "win32":
             raise SandboxError("Windows has no fork: grade in WSL2 or in a Linux container.")
         self._control, theirs = socket.socketpair()
@@ -103,18 +103,19 @@ class Server:
                 start_new_session=True,  # Ctrl-C is the grader's to handle
             )
         try:
-            self.ready = self._set_up(inputs, limits, without)
+            self.ready = self._set_up(inputs, limits, without, trace)
         except BaseException:
             self.close()
             raise
 
-    def _set_up(self, inputs: bytes, limits: Limits, without: Collection[str]) -> frames.Ready:
+    def _set_up(self, inputs: bytes, limits: Limits, without: Collection[str], trace: bool) -> frames.Ready:
         setup = frames.Setup(
             posegraph=str(_POSEGRAPH),
             inputs=inputs,
             memory_mib=limits.memory_mib,
             cpu_seconds=math.ceil(limits.total_cpu) + 1,
             without=sorted(without),
+            trace=trace,
         )
         self._control.settimeout(_START_SECONDS)
         try:
@@ -160,6 +161,12 @@ class Server:
         self._ask(forkserver.WAIT, pid)
         status, _, _ = forkserver.STATUS.unpack(self._answer(forkserver.STATUS.size))
         return _ending(status)
+
+    def refused(self) -> list[int]:
+        """Give the numbers of the system calls that traced children were refused since the last time."""
+        self._ask(forkserver.REFUSED, 0)
+        (count,) = struct.unpack("<I", self._answer(4))
+        return list(struct.unpack(f"<{count}q", self._answer(8 * count)))
 
     def close(self) -> None:
         """End the fork server; its children die with it."""
