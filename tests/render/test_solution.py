@@ -11,7 +11,7 @@ from autograder.problems.problem import worked_problem
 from autograder.render.facts import range_experiment, solve
 from autograder.render.solution import execute, render_solution
 from tests import witness
-from tests.render.test_handout import another_problem
+from tests.render.another import another_problem
 
 FOLDER = Path(__file__).parents[2] / "reference_solution"
 
