@@ -72,8 +72,21 @@ def execute(notebook: str) -> str:
     ran.metadata = metadata
     for cell in ran.cells:
         cell.metadata.pop("execution", None)
+        if "outputs" in cell:
+            cell.outputs = _joined(cell.outputs)
     text: str = nbformat.writes(ran, version=4)  # type: ignore[no-untyped-call]  # nbformat has no types
     return text + "\n"
+
+
+def _joined(outputs: list[nbformat.NotebookNode]) -> list[nbformat.NotebookNode]:
+    """Join what one stream printed: in how many pieces it arrives depends on how busy the machine is."""
+    joined: list[nbformat.NotebookNode] = []
+    for output in outputs:
+        if joined and output.output_type == "stream" and joined[-1].get("name") == output.name:
+            joined[-1].text += output.text
+        else:
+            joined.append(output)
+    return joined
 
 
 def _matrices(problem: Problem) -> dict[str, Any]:

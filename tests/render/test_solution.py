@@ -4,12 +4,13 @@ import json
 import re
 from pathlib import Path
 
+import nbformat
 import pytest
 
 from autograder.problems.conclusion import RIGHT, choice_of
 from autograder.problems.problem import worked_problem
 from autograder.render.facts import range_experiment, solve
-from autograder.render.solution import execute, render_solution
+from autograder.render.solution import _joined, execute, render_solution
 from tests import witness
 from tests.render.another import another_problem
 
@@ -20,6 +21,12 @@ FOLDER = Path(__file__).parents[2] / "reference_solution"
 def rendered():
     """The solution of the worked example, not executed."""
     return render_solution(worked_problem())
+
+
+def test_printed_pieces_are_joined():
+    """The same notebook comes out, in however many pieces the kernel sent what was printed."""
+    pieces = [nbformat.v4.new_output("stream", name="stdout", text=text) for text in ("a", "\n", "b\n")]
+    assert [output.text for output in _joined(pieces)] == ["a\nb\n"]
 
 
 def test_the_page_is_current(rendered):
