@@ -17,6 +17,7 @@ ARROWS = """
 errors             -> nothing
 verdicts           -> nothing
 posegraph          -> nothing
+writing            -> errors
 reference_solution -> nothing
 assignment         -> posegraph
 course             -> errors
@@ -26,9 +27,9 @@ intake             -> errors, sandbox
 stages             -> problems, reference_solution, verdicts, posegraph
 diagnosis          -> posegraph, stages, problems, verdicts
 render             -> stages, problems, posegraph, errors
-engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, errors
+engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, errors
 reports            -> verdicts, render.figure
-exports            -> render, stages, problems, reports, errors
+exports            -> render, stages, problems, posegraph, reports, verdicts, writing, errors
 audit              -> engine, stages, specimens
 commands           -> everything above
 cli                -> everything above

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import platform
 import sys
 from collections.abc import Iterable
@@ -16,6 +15,7 @@ import numpy as np
 import autograder
 from autograder.errors import UsageError
 from autograder.verdicts import Result, decode, encode
+from autograder.writing import write_whole
 
 DRAFT = "-draft"  # ends the fingerprint of a result that is judged, and not yet explained
 
@@ -85,23 +85,6 @@ class Store:
     def save_record(self, record: RunRecord) -> None:
         """Write run.json."""
         write_whole(self.out / "run.json", msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n")
-
-
-def write_whole(path: Path, data: bytes) -> None:
-    """Write a file so that a reader sees the old bytes or the new ones, never a part.
-
-    Raises
-    ------
-    UsageError
-        Where the disk is full or the folder cannot be written; the old file is still there.
-    """
-    draft = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        draft.write_bytes(data)
-        draft.replace(path)
-    except OSError as error:
-        draft.unlink(missing_ok=True)
-        raise UsageError(f"{path} could not be written ({error.strerror}); what was there before is kept.") from None
 
 
 @cache
