@@ -30,7 +30,7 @@ render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, errors
 reports            -> verdicts, render.figure
 exports            -> render, stages, problems, posegraph, reports, verdicts, writing, errors
-audit              -> engine, stages, specimens
+audit              -> errors, verdicts, course, assignment, reference_solution, sandbox.frames, intake, engine, stages, specimens
 commands           -> everything above
 cli                -> everything above
 __main__           -> cli
