@@ -30,7 +30,8 @@ render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, errors
 reports            -> verdicts, render.figure
 exports            -> render, stages, problems, posegraph, reports, verdicts, writing, errors
-audit              -> errors, verdicts, course, assignment, reference_solution, sandbox.frames, intake, engine, stages, specimens
+audit              -> errors, verdicts, course, assignment, reference_solution, sandbox.frames, intake, engine,
+                      stages, specimens
 commands           -> everything above
 cli                -> everything above
 __main__           -> cli
@@ -45,7 +46,7 @@ FORK_SERVER = "autograder.sandbox.forkserver"
 
 def table() -> dict[str, frozenset[str]]:
     """Read ARROWS: room -> what it may import."""
-    lines = [line.split("->") for line in ARROWS.strip().splitlines()]
+    lines = [line.split("->") for line in ARROWS.strip().replace(",\n", ",").splitlines()]
     may: dict[str, frozenset[str]] = {}
     for room, names in lines:
         named = frozenset(name.strip() for name in names.split(",")) - {"nothing"}
