@@ -24,6 +24,7 @@ MESSAGE = struct.Struct("<cq")
 STATUS = struct.Struct("<qqq")  # wait status, CPU time in microseconds, largest memory in KiB
 FORK, KILL, WAIT, REFUSED = b"F", b"K", b"W", b"R"
 _PATIENCE = 500  # milliseconds between looks at whether the grader is still there
+_CONTROL = 20  # the grader's number may be any; a child closes what lies below a bound
 _TOKEN = struct.calcsize("i")
 
 
@@ -192,7 +193,11 @@ def _boot() -> None:
     package = module_from_spec(spec)
     sys.modules["sandbox"] = package
     spec.loader.exec_module(package)
-    importlib.import_module("sandbox.forkserver").serve(socket.socket(fileno=int(descriptor)), int(grader))
+    import fcntl  # noqa: PLC0415  # the grader's side, which imports this file, must do without
+
+    control = fcntl.fcntl(int(descriptor), fcntl.F_DUPFD_CLOEXEC, _CONTROL)
+    os.close(int(descriptor))
+    importlib.import_module("sandbox.forkserver").serve(socket.socket(fileno=control), int(grader))
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ _MODE_FILTER = 2
 _LANDLOCK_CREATE, _LANDLOCK_RESTRICT = 444, 446  # the same number on every architecture
 _LANDLOCK_VERSION = 1
 _OUT_OF_THE_WAY = 10  # lower descriptors are given to the child's own channels
+_ABOVE_ALL = 1024  # the fork server has a dozen low descriptors; an old kernel closes up to here one by one
 # What each Landlock ABI added: the file rights known to it, TCP, and the scopes (signals, abstract sockets).
 _FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15, 5: 16}
 _NET_RIGHTS, _NET_ABI = 0b11, 4
@@ -124,7 +125,7 @@ class Lock:
             self._call("PR_SET_NO_NEW_PRIVS", self._libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0))
             if not self.landlock:
                 self._call("landlock_restrict_self", self._libc.syscall(_LANDLOCK_RESTRICT, self._ruleset, 0))
-        os.closerange(keep, _open_limit())
+        os.closerange(keep, _ABOVE_ALL)
         if "rlimits" not in self.without:
             self._limit()
         if self._libc is not None and not self.seccomp and self.trace:
@@ -166,10 +167,6 @@ def _address_space() -> int:
             return int(file.read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, ValueError):
         return 0  # no such file on this system: memory is not limited there
-
-
-def _open_limit() -> int:
-    return 2**31 - 1 if sys.platform == "linux" else os.sysconf("SC_OPEN_MAX")  # close_range knows the end
 
 
 def _drop_capabilities(libc: Any) -> None:

@@ -71,7 +71,7 @@ def confinement_of(ready: frames.Ready) -> Confinement:
         detail = f"NOT CONFINED: time-outs only. Grade only code you trust. (seccomp: {ready.seccomp})"
         return Confinement("none", detail)
     if ready.landlock:
-        return Confinement("seccomp", f"seccomp; Landlock unavailable ({ready.landlock})")
+        return Confinement("seccomp", f"Landlock unavailable ({ready.landlock})")
     scope = ", ".join(["files", *(["TCP"] if ready.abi >= 4 else []), *(["signals"] if ready.abi >= 6 else [])])
     return Confinement("full", f"seccomp + Landlock ABI {ready.abi} ({scope})")
 

@@ -22,7 +22,7 @@ WORDS = {
     "Linux 5.13": (Ready("", "", 1, ""), "full: seccomp + Landlock ABI 1 (files)"),
     "an old kernel": (
         Ready("", "the kernel does not have it", 0, ""),
-        "seccomp: seccomp; Landlock unavailable (the kernel does not have it)",
+        "seccomp: Landlock unavailable (the kernel does not have it)",
     ),
     "another system": (
         Ready("not available on darwin", "not available on darwin", 0, ""),
@@ -48,7 +48,7 @@ def test_this_machine_has_a_lock(sandbox: Sandbox) -> None:
 def test_without_landlock_the_level_says_so() -> None:
     """The level drops to `seccomp`, with the reason, and every attempt of the canary still fails."""
     with Sandbox(inputs(), LIMITS, without=["landlock"]) as sandbox:
-        assert sandbox.confinement.wording == "seccomp: seccomp; Landlock unavailable (switched off)"
+        assert sandbox.confinement.wording == "seccomp: Landlock unavailable (switched off)"
         assert sandbox.probe() == []
 
 

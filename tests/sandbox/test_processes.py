@@ -149,3 +149,22 @@ def f(x, graph):
             outputs = other.call(batch())
     assert isinstance(outputs, Outputs)
     assert outputs.data.tolist() == [0, 0, 0, 0, 0]
+
+
+def test_a_child_has_four_descriptors() -> None:
+    """However many the grader has open, a child inherits its input, its output and its channel, and no more."""
+    opened = [os.open("/dev/null", os.O_RDONLY) for _ in range(100)]
+    for descriptor in opened:
+        os.set_inheritable(descriptor, True)
+    try:
+        with Sandbox(inputs(), LIMITS) as sandbox, sandbox.open(SPIN) as session:
+            session.load()
+            (child,) = children(sandbox.server.pid)
+            try:
+                found = sorted(int(path.name) for path in Path(f"/proc/{child}/fd").iterdir())
+            except PermissionError:
+                pytest.skip("an ordinary user may not look into a child that cannot be inspected")
+            assert found == [0, 1, 2, 3]
+    finally:
+        for descriptor in opened:
+            os.close(descriptor)
