@@ -16,18 +16,19 @@ ALLOWED = frozenset(_ALLOWED.split())
 
 STAND_INS = frozenset({"matplotlib", "IPython", "self_check", "tqdm"})
 
-# A locked child opens no file: what is not loaded before it forks cannot be imported in it.
+# A locked child opens no file: what is not loaded before it forks cannot be imported in it. Every megabyte
+# here is copied, page table by page table, for every child: numpy.matlib alone would bring eight.
 _PRELOADED = """
     abc cmath collections.abc contextlib copy dataclasses decimal enum fractions functools inspect io
     itertools json json.decoder json.encoder json.scanner linecache math numbers operator os.path pprint
     random re statistics string textwrap time tokenize traceback types typing warnings __future__ _strptime
     unicodedata encodings.ascii encodings.cp1252 encodings.idna encodings.latin_1 encodings.unicode_escape
-    encodings.utf_16 encodings.utf_32 encodings.utf_8_sig numpy numpy.char numpy.core numpy.dtypes numpy.emath
-    numpy.exceptions numpy.fft numpy.lib numpy.lib.format numpy.lib.mixins numpy.lib.npyio
-    numpy.lib.recfunctions numpy.lib.scimath numpy.lib.stride_tricks numpy.linalg numpy.ma numpy.ma.extras
-    numpy.ma.mrecords numpy.matlib numpy.matrixlib numpy.polynomial numpy.polynomial.chebyshev
-    numpy.polynomial.hermite numpy.polynomial.hermite_e numpy.polynomial.laguerre numpy.polynomial.legendre
-    numpy.polynomial.polynomial numpy.random numpy.rec numpy.strings numpy.testing numpy.typing
+    encodings.utf_16 encodings.utf_32 encodings.utf_8_sig numpy numpy.char numpy.core numpy.dtypes
+    numpy.exceptions numpy.fft numpy.lib numpy.lib.format numpy.lib.mixins numpy.lib.npyio numpy.lib.scimath
+    numpy.lib.stride_tricks numpy.linalg numpy.ma numpy.ma.extras numpy.ma.mrecords numpy.matrixlib
+    numpy.polynomial numpy.polynomial.chebyshev numpy.polynomial.hermite numpy.polynomial.hermite_e
+    numpy.polynomial.laguerre numpy.polynomial.legendre numpy.polynomial.polynomial numpy.random numpy.rec
+    numpy.strings numpy.testing numpy.typing
 """
 
 

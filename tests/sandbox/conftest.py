@@ -26,7 +26,7 @@ RANGING = RangingData(
     variances=np.array([0.01, 0.01]).tobytes(),
 )
 X = Array((3,), np.array([0.0, 1.0, 2.0]).tobytes())
-LIMITS = Limits(cpu_seconds=0.25, memory_mib=128, output_bytes=1 << 20)
+LIMITS = Limits(cpu_seconds=0.25, memory_mib=64, output_bytes=1 << 20)
 
 Run = Callable[..., Outputs | Failure]
 

@@ -176,6 +176,18 @@ def f(x, graph):
     assert run(text).data.tolist() == [1.0]
 
 
+def test_a_star_brings_all_of_numpy_that_is_there(run: Run) -> None:
+    """`from numpy import *` and of its parts bind what their own list says, without a look at the disk."""
+    text = """
+from numpy import *
+from numpy.linalg import *
+from numpy.polynomial import *
+def f(x, graph):
+    return solve(diag(ones(3)), asarray(x)) + 0 * linalg.norm(x) + 0 * random.default_rng(0).normal(size=3)
+"""
+    assert run(text).data.tolist() == [0, 1, 2]
+
+
 def test_numpy_imports_what_it_needs(run: Run) -> None:
     """The import of a submission is not numpy's: its late imports find what was loaded before."""
     text = """
