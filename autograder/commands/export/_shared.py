@@ -1,0 +1,103 @@
+"""What the exports of marks have in common: options, the stored results, and the notes on stderr."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+if TYPE_CHECKING:
+    from autograder.reports.feedback import Policy
+    from autograder.verdicts import Result
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True)
+class Graded:
+    """The stored results of a run, and how its feedback is to be shown."""
+
+    out: Path
+    results: tuple[Result, ...]
+    policy: Policy
+    course: str
+
+    def texts(self) -> dict[str, str]:
+        """Return everybody's feedback as text."""
+        from autograder.exports.words import feedback_text
+
+        return {one.submission: feedback_text(one, self.policy, self.course) for one in self.results}
+
+
+def graded_options(function: Function) -> Function:
+    """Add what every export of marks takes."""
+    for option in (
+        click.option(
+            "--is",
+            "given",
+            multiple=True,
+            metavar="SUBMISSION=ID",
+            help="Whose a submission is, where it does not say; may be given again.",
+        ),
+        click.option("--feedback", type=click.Choice(("full", "hint", "score")), help="[default: as in the run]"),
+        click.option(
+            "--course", "course_file", type=click.Path(path_type=Path), metavar="FILE", help="Settings of the course."
+        ),
+        click.argument("out", type=click.Path(path_type=Path), metavar="OUT"),
+    ):
+        function = option(function)
+    return function
+
+
+def stored(out: Path, course_file: Path | None, feedback: str | None) -> Graded:
+    """Read the results of a run, and how much of them students may see."""
+    from autograder.commands.report import stored_record, stored_results
+    from autograder.course import load_course
+
+    course = load_course(course_file)
+    policy: Any = feedback or (stored_record(out).get("settings") or {}).get("feedback") or course.feedback
+    return Graded(out, stored_results(out), policy, course.title)
+
+
+def read(path: Path, what: str) -> bytes:
+    """Read a file that somebody named, or say in one sentence why not."""
+    from autograder.errors import UsageError
+
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise UsageError(f"{path} cannot be read ({error.strerror}); expected {what}.") from None
+
+
+def decisions(pairs: Iterable[str]) -> dict[str, str]:
+    """Read SUBMISSION=ID."""
+    found: dict[str, str] = {}
+    for text in pairs:
+        name, sign, number = text.rpartition("=")
+        if not sign or not name or not number:
+            raise click.UsageError(f"--is {text!r}: expected SUBMISSION=ID, such as --is jane=1017.")
+        found[name] = number
+    return found
+
+
+def write(folder: Path, files: dict[str, bytes], notes: Iterable[str]) -> None:
+    """Write files into a folder, each in one stroke; say what was written and what to know."""
+    from autograder.commands.grade import make_folder
+    from autograder.writing import write_whole
+
+    make_folder(folder)
+    for name, data in files.items():
+        write_whole(folder / name, data)
+    say(notes, [folder / name for name in files])
+
+
+def say(notes: Iterable[str], written: Iterable[Path]) -> None:
+    """Put notes and names of files on stderr."""
+    from autograder.reports.wording import visible
+
+    for note in notes:
+        click.echo(f"autograder: {visible(note)}", err=True)
+    click.echo(f"Wrote {', '.join(map(str, written))}.", err=True)
