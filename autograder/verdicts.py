@@ -58,7 +58,9 @@ class StageVerdict(msgspec.Struct, frozen=True, kw_only=True):
 class Result(msgspec.Struct, frozen=True, kw_only=True):
     """One submission, as written to results/<submission>.json.
 
-    `score` is None exactly when `status` is "grader_error": our fault is never a zero.
+    `score` is None exactly when `status` is "grader_error": our fault is never a zero. `awaiting`
+    are points that a human reader has still to give; as long as there are any, the score is
+    `provisional`. `flags` are for staff only, such as numbers that belong to somebody else.
     """
 
     submission: str
@@ -73,6 +75,8 @@ class Result(msgspec.Struct, frozen=True, kw_only=True):
     awaiting: float = 0.0
     stages: tuple[StageVerdict, ...] = ()
     notes: tuple[str, ...] = ()
+    flags: tuple[str, ...] = ()
+    written: dict[str, str] = {}
     confinement: str
     seed: int
     grader_version: str

@@ -20,11 +20,11 @@ posegraph          -> nothing
 writing            -> errors
 reference_solution -> nothing
 assignment         -> posegraph
-course             -> errors
 problems           -> posegraph, errors
 sandbox            -> errors
 intake             -> errors, sandbox
 stages             -> problems, reference_solution, verdicts, posegraph
+course             -> stages, errors
 diagnosis          -> posegraph, stages, problems, verdicts
 render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, errors

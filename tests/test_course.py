@@ -34,7 +34,7 @@ def test_without_a_file_the_defaults_of_the_contract_hold() -> None:
     """The stages that exist are worth 90 points."""
     course = load_course(None)
     assert course == Course()
-    assert course.max_score == 90.0
+    assert course.max_score == 100.0
     assert course.points == {
         "residual": 15,
         "jacobian": 15,
@@ -42,8 +42,11 @@ def test_without_a_file_the_defaults_of_the_contract_hold() -> None:
         "normal_equations": 20,
         "gauss_newton_step": 20,
         "second_step": 10,
+        "answers": 5,
+        "written": 5,
+        "sparsity_pattern": 5,
+        "range_factor": 5,
     }
-    assert course.later_points == {"answers": 5, "written": 5, "sparsity_pattern": 5, "range_factor": 5}
 
 
 def test_the_template_loads_to_the_defaults(tmp_path: Path) -> None:
@@ -99,7 +102,7 @@ def test_every_setting_is_read(tmp_path: Path) -> None:
     )
     assert course == Course(
         title="Robotics 1",
-        points={**DEFAULT_POINTS, "residual": 7.5},
+        points={**DEFAULT_POINTS, "residual": 7.5, "answers": 0.0},
         stages=("residual", "jacobian"),
         follow_through=1.0,
         bonus_cap=100.0,
@@ -110,7 +113,6 @@ def test_every_setting_is_read(tmp_path: Path) -> None:
         output_mib=1,
         feedback="hint",
         min_confinement="full",
-        later_points={**Course().later_points, "answers": 0.0},
     )
     assert course.max_score == 22.5
 

@@ -8,10 +8,12 @@ from pathlib import Path
 import pytest
 
 from autograder import cli
+from autograder.stages.catalogue import all_stages
 from autograder.verdicts import Result, decode
 from tests.specimens.first_line import Expected, code, expected, submissions
 
 SAMPLE = submissions("sample")
+FUNCTION_STAGES = {stage.name for stage in all_stages() if not stage.bonus}
 REMARKS = {"lists": "returns a list", "columns": "returns a column", "integers": "returns integers"}
 
 
@@ -58,8 +60,8 @@ def test_every_submission_gets_the_verdict_of_its_first_line(path: Path, shown: 
     wanted, result = verdict(path), stored(shown[0], path.stem)
     assert result.status == "graded"
     for stage in result.stages:
-        if stage.status == "not_graded":
-            continue
+        if stage.name not in FUNCTION_STAGES and stage.name not in wanted.stages:
+            continue  # the first line speaks of the stages that call functions
         status, slip, follows = wanted.stages.get(stage.name, (wanted.others, "", False))
         assert (stage.name, stage.status, stage.slip or "") == (stage.name, status, slip)
         assert ("solves your own" in stage.message) == follows

@@ -9,7 +9,7 @@ from typing import Any
 
 from autograder.course.lines import line_of
 from autograder.course.schema import KEYS, suggestion
-from autograder.course.settings import DEFAULT_POINTS, LATER_BONUS, LATER_POINTS, Course
+from autograder.course.settings import DEFAULT_POINTS, Course
 from autograder.errors import UsageError
 
 MAX_FILE = 64 << 10  # bytes
@@ -32,16 +32,15 @@ def load_course(path: Path | None) -> Course:
         raise UsageError(f"{path}{_toml_reason(error)}") from None
     values: dict[str, Any] = {}
     points = dict(DEFAULT_POINTS)
-    later = {**LATER_POINTS, **LATER_BONUS}
     for section, key, value in _settings(data, path, text):
         setting = KEYS[section][key]
         if not setting.accepts(value):
             raise _complaint(path, text, section, key, f"is {_shown(value)}, expected {setting.expected}")
         if section == "points":
-            (points if key in points else later)[key] = float(value)
+            points[key] = float(value)
         else:
             values[setting.field] = setting.convert(value)
-    course = Course(**values, points=points, later_points=later)
+    course = Course(**values, points=points)
     if course.max_score <= 0:
         raise UsageError(f"{path}: the stages in use have no points; give at least one of them points in [points].")
     return course

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any
 
-from autograder.course.settings import DEFAULT_POINTS, LATER_BONUS, LATER_POINTS, STAGES
+from autograder.course.settings import DEFAULT_POINTS, STAGES
 
 Check = Callable[[Any], bool]
 
@@ -51,7 +51,7 @@ def _is_stages(value: Any) -> bool:
 _POINTS = Setting("points", _number(0, 1000), "a number from 0 to 1000", float)
 KEYS: dict[str, dict[str, Setting]] = {
     "": {"title": Setting("title", lambda value: isinstance(value, str) and 0 < len(value) <= 200, "a short text")},
-    "points": {**dict.fromkeys((*DEFAULT_POINTS, *LATER_POINTS, *LATER_BONUS), _POINTS)},
+    "points": {**dict.fromkeys(DEFAULT_POINTS, _POINTS)},
     "grading": {
         "follow_through": Setting("follow_through", _number(0, 1), "a share from 0 to 1", float),
         "bonus_cap": Setting("bonus_cap", _number(0, 10_000), "a number from 0 to 10000", float),

@@ -7,22 +7,11 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Literal
 
-# The stages in the order of the homework, with their points. This is the one place that names both.
-DEFAULT_POINTS: Mapping[str, float] = MappingProxyType(
-    {
-        "residual": 15.0,
-        "jacobian": 15.0,
-        "information_matrix": 10.0,
-        "normal_equations": 20.0,
-        "gauss_newton_step": 20.0,
-        "second_step": 10.0,
-    }
-)
+from autograder.stages import catalogue
+
+DEFAULT_POINTS: Mapping[str, float] = MappingProxyType(catalogue.points())
 STAGES = tuple(DEFAULT_POINTS)
-# Stages that reports list as not yet graded: their points are kept, and count towards no maximum.
-LATER_POINTS: Mapping[str, float] = MappingProxyType({"answers": 5.0, "written": 5.0})
-# Bonus stages that a course file may already price; nothing is graded under these names yet.
-LATER_BONUS: Mapping[str, float] = MappingProxyType({"sparsity_pattern": 5.0, "range_factor": 5.0})
+BONUS = catalogue.bonus()
 
 Feedback = Literal["full", "hint", "score"]
 Level = Literal["full", "seccomp", "none"]
@@ -58,8 +47,6 @@ class Course:
         What a student is shown of a failed check.
     min_confinement : {"full", "seccomp", "none"}
         The least confinement under which this course is graded.
-    later_points : mapping of str to float
-        Points of the stages that are listed as not yet graded, and of bonus stages to come.
     """
 
     title: str = "1D SLAM"
@@ -74,9 +61,8 @@ class Course:
     output_mib: int = 16
     feedback: Feedback = "full"
     min_confinement: Level = "seccomp"
-    later_points: Mapping[str, float] = field(default_factory=lambda: {**LATER_POINTS, **LATER_BONUS})
 
     @property
     def max_score(self) -> float:
         """The points of all stages in use, without bonus."""
-        return float(sum(self.points[stage] for stage in self.stages))
+        return float(sum(self.points[stage] for stage in self.stages if stage not in BONUS))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from autograder.course.settings import DEFAULT_POINTS, LATER_BONUS, LATER_POINTS, STAGES, Course
+from autograder.course.settings import BONUS, DEFAULT_POINTS, STAGES, Course
 from autograder.errors import UsageError
 
 _DEFAULT = Course()
@@ -23,11 +23,9 @@ title = "{_DEFAULT.title}"    # name of the homework on reports
 
 [points]
 # Points of each stage; a stage's checks share them. The maximum is the sum over the stages in use.
-{_lines(dict(DEFAULT_POINTS))}
-# Not yet graded: listed in reports, and counted towards no maximum.
-{_lines(dict(LATER_POINTS))}
-# Bonus stages to come, beyond the maximum.
-{_lines(dict(LATER_BONUS))}
+{_lines({name: value for name, value in DEFAULT_POINTS.items() if name not in BONUS})}
+# Bonus stages, beyond the maximum.
+{_lines({name: value for name, value in DEFAULT_POINTS.items() if name in BONUS})}
 
 [grading]
 # The stages that this course uses; they are always reported in this order.

@@ -31,8 +31,10 @@ def facts(stage: Stage, answers: Sequence[Answered]) -> list[str]:
         found = [_sizes(answers), _rows(stage, answers)]
     elif stage.name == "normal_equations":
         found = _parts(stage, answers)
-    else:
+    elif stage.name in {"gauss_newton_step", "second_step", "sparsity_pattern"}:
         found = [_sizes(answers)]
+    else:
+        found = []
     return [fact for fact in found if fact]
 
 

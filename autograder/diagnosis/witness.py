@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, Phase, Verbosity, find, settings
 from hypothesis.errors import HypothesisException, HypothesisWarning
 
 from autograder.problems.cases import Case, key
-from autograder.problems.strategies import WITNESSES
+from autograder.problems.witnesses import WITNESSES
 
 GENERATED = 60  # cases drawn from a strategy before it is given up
 BUDGET = 300  # calls of `is_wrong` in all: a count, so that the witness is the same on every machine

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,14 @@ from autograder.sandbox.host import Failure, Loaded, Outputs, Session
 
 
 @dataclass(frozen=True)
+class Absent:
+    """Why there are no numbers: the submission has no such function."""
+
+    message: str
+    reason: Literal["missing"] = "missing"
+
+
+@dataclass(frozen=True)
 class Reply:
     """What came back for one check, judged: numbers, or the reason why there are none.
 
@@ -21,15 +30,15 @@ class Reply:
     whether every call returned numbers that are judged right.
     """
 
-    outputs: Outputs | Failure
+    outputs: Outputs | Failure | Absent
     again: Outputs | Failure | None = None
     right: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
 
     @property
-    def failure(self) -> Failure | None:
+    def failure(self) -> Failure | Absent | None:
         """The first reason why numbers are missing."""
         for part in (self.outputs, self.again):
-            if isinstance(part, Failure):
+            if isinstance(part, Failure | Absent):
                 return part
         return None
 
@@ -43,7 +52,7 @@ class Reply:
 class Collected:
     """All that one submission answered.
 
-    `replies` goes by the number of the batch; a stage whose function is not defined has none.
+    `replies` goes by the number of the batch; a check whose function is not defined has none.
     `own_systems` holds the student's H and b for each rung of the graphs, where an earlier
     function is wrong and all of them return numbers.
     """
@@ -64,16 +73,17 @@ def collect(session: Session, plan: Plan) -> Collected:
     """Load the submission and run every check; a stage that hangs or dies costs only itself."""
     collected = Collected(session.load())
     for stage, tasks in plan.stages:
-        if stage.function not in collected.loaded.functions:
-            continue
         if stage.name == follow.STAGE:
             collected.own_systems = _own_systems(session, plan, collected)
+        failed: dict[str, Reply] = {}  # the rest of a stage would end the same way
         for task in tasks:
-            reply = judged(session, plan, task, session.run(task.batch))
+            function = task.stage.function
+            if function not in collected.loaded.functions:
+                continue
+            reply = failed.get(function) or judged(session, plan, task, session.run(task.batch))
             collected.replies[task.batch] = reply
-            if reply.failure is not None:  # the rest of the stage would end the same way
-                collected.replies.update({later.batch: reply for later in tasks if later.batch > task.batch})
-                break
+            if reply.failure is not None:
+                failed[function] = reply
     return collected
 
 

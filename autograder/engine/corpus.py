@@ -10,8 +10,8 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from assignment.posegraph import PoseGraph
-from autograder.problems.cases import Case
+from assignment.posegraph import PoseGraph, Ranging
+from autograder.problems.cases import Case, fields
 from autograder.problems.ladders import Ladder
 from autograder.stages.base import Stage
 
@@ -75,15 +75,9 @@ def case_of(plain: list[Any]) -> Case:
 
 def _plain(argument: Any) -> list[Any]:
     if isinstance(argument, PoseGraph):
-        arrays = (
-            argument.edges,
-            argument.measurements,
-            argument.edge_variances,
-            argument.priors,
-            argument.prior_means,
-            argument.prior_variances,
-        )
-        return ["graph", argument.n_poses, *(_bytes(array) for array in arrays)]
+        return ["graph", argument.n_poses, *(_bytes(array) for array in fields(argument)[1:])]
+    if isinstance(argument, Ranging):
+        return ["ranging", *(_bytes(array) for array in fields(argument))]
     return ["array", list(argument.shape), _bytes(argument)]
 
 
@@ -95,6 +89,8 @@ def _bytes(array: np.ndarray) -> bytes:
 def _value(item: list[Any]) -> Any:
     if item[0] == "array":
         return np.frombuffer(item[2], dtype="<f8").reshape(item[1])
+    if item[0] == "ranging":
+        return Ranging(*(np.frombuffer(each, dtype="<i8" if at == 1 else "<f8") for at, each in enumerate(item[1:])))
     _, n_poses, edges, measurements, variances, priors, means, prior_variances = item
     return PoseGraph(
         n_poses,

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from assignment.posegraph import PoseGraph
+from assignment.posegraph import PoseGraph, Ranging
 from autograder.engine.collect import Reply
 from autograder.engine.follow import array_of
 from autograder.engine.plan import Task
@@ -33,8 +33,11 @@ MAX_SHOWN_POSES = 10  # a larger counterexample is described in words only
 _ARGUMENTS = {
     "normal_equations": ("J", "omega", "f"),
     "information_matrix": ("graph",),
+    "sparsity_pattern": ("graph",),
+    "range_residual": ("x", "ranging"),
+    "range_jacobian": ("x", "ranging"),
 }
-_PARTS = {"normal_equations": ("H", "b")}
+_PARTS = {"normal_equations": ("H", "b"), "sparsity_pattern": ("J_mask", "H_mask")}
 
 _REMARKS = {
     Kind.LIST: "returns a list; a numpy array is expected, and the list was converted.",
@@ -145,6 +148,8 @@ def _came(outcome: Outcome, reason: str) -> str:
 def _extent(argument: Any) -> tuple[int, ...]:
     if isinstance(argument, PoseGraph):
         return argument.n_poses, argument.n_factors
+    if isinstance(argument, Ranging):
+        return (len(argument.poses),)
     return tuple(argument.shape) or (0,)
 
 
@@ -159,6 +164,9 @@ def _json(argument: Any) -> Any:
             "prior_means": argument.prior_means.tolist(),
             "prior_variances": argument.prior_variances.tolist(),
         }
+    if isinstance(argument, Ranging):
+        names = ("beacon", "poses", "ranges", "variances")
+        return {name: getattr(argument, name).tolist() for name in names}
     return _strict((np.asarray(argument, dtype=np.float64) + 0.0).tolist())
 
 
@@ -169,16 +177,16 @@ def _strict(value: Any) -> Any:
     return value if np.isfinite(value) else str(value)
 
 
-def remarks(tasks: tuple[Task, ...], replies: Mapping[int, Reply]) -> tuple[str, ...]:
+def remarks(tasks: Sequence[Task], replies: Sequence[Reply]) -> tuple[str, ...]:
     """Remark on style, at no cost: lists, columns, np.matrix, integers, arguments changed in place."""
     found: dict[str, None] = {}
-    for task in tasks:
-        outputs = replies[task.batch].outputs
+    for task, reply in zip(tasks, replies, strict=True):
+        outputs = reply.outputs
         if not isinstance(outputs, Outputs):
             continue
         function = task.stage.function
         for kind, words in _REMARKS.items():
-            if (outputs.kinds == kind).any():
+            if not (kind is Kind.BOOL_ARRAY and task.stage.takes_truth) and (outputs.kinds == kind).any():
                 found[f"{function} {words}"] = None
         wanted = task.stage.layout(task.prepared).shapes
         if outputs.shapes != wanted and any(

@@ -83,8 +83,9 @@ class Explainer:
 
         Returns the verdict and the explanation that it now holds.
         """
-        stage = self.plan.stage(verdict.name)
-        known = self.known(stage, verdict.slip) if verdict.slip is not None else given
+        first = next(check.name for check in verdict.checks if not check.passed and not check.points)
+        stage = self.plan.stage(verdict.name).facet(first)
+        known = self.known(stage, verdict.slip) if given is None and verdict.slip is not None else given
         if known is not None:
             confirmed = self._confirmed(session, stage, verdict, known)
             if confirmed is not None:
@@ -114,7 +115,7 @@ class Explainer:
 
     def _facts(self, session: Session, stage: Stage) -> list[str]:
         answers: list[Answered] = []
-        for task in self.plan.tasks_of(stage):
+        for task in self.plan.tasks_of(self.plan.stage(stage.name)):
             outputs = session.run(task.batch)
             if not isinstance(outputs, Outputs):
                 return []

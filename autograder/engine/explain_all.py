@@ -12,7 +12,7 @@ from autograder.intake.submission import Submission
 from autograder.verdicts import Result, StageVerdict
 
 Group = tuple[str, str]
-"""Name of a stage and the digest of what was answered to it."""
+"""Name of a stage, and the known mistake or the digest of what was answered to it."""
 
 
 def explain_all(
@@ -39,7 +39,7 @@ def explain_all(
     """
     found = [results.get(submission.id) for submission in submissions]
     drafts = [index for index, result in enumerate(found) if result is not None and result.fingerprint.endswith(DRAFT)]
-    unknown = [_unknown(result) for result in found]
+    wanted = [_wanted(result) for result in found]
     order = sorted(range(len(submissions)), key=lambda index: submissions[index].digest)
     shared: dict[Group, Known] = {}
 
@@ -54,34 +54,30 @@ def explain_all(
             for verdict, known in zip(answer.verdicts, answer.known, strict=True):
                 shared.setdefault(_group(verdict), known)
 
-    pool.run([job(index, verdicts) for index, verdicts in _leaders(drafts, order, unknown).items()], led)
+    pool.run([job(index, verdicts) for index, verdicts in _leaders(drafts, order, wanted).items()], led)
     pool.run(
-        [job(index, _wanted(found[index])) for index in drafts],
+        [job(index, wanted[index]) for index in drafts],
         lambda index, answer: finish(submissions[index], answer),
     )
 
 
 def _group(verdict: StageVerdict) -> Group:
-    return verdict.name, verdict.group
+    return verdict.name, verdict.slip or verdict.group
 
 
 def _wanted(result: Result | None) -> list[StageVerdict]:
     return [] if result is None else [verdict for verdict in result.stages if wants_explanation(verdict)]
 
 
-def _unknown(result: Result | None) -> list[StageVerdict]:
-    return [verdict for verdict in _wanted(result) if verdict.slip is None]
-
-
 def _leaders(
-    drafts: Sequence[int], order: Sequence[int], unknown: Sequence[list[StageVerdict]]
+    drafts: Sequence[int], order: Sequence[int], wanted: Sequence[list[StageVerdict]]
 ) -> dict[int, list[StageVerdict]]:
     """Return for each leader of a group with a draft in it the verdicts that it is to explain."""
-    wanted = {_group(verdict) for index in drafts for verdict in unknown[index]}
+    leaderless = {_group(verdict) for index in drafts for verdict in wanted[index]}
     leaders: dict[int, list[StageVerdict]] = {}
     for index in order:
-        for verdict in unknown[index]:
-            if _group(verdict) in wanted:
-                wanted.discard(_group(verdict))
+        for verdict in wanted[index]:
+            if _group(verdict) in leaderless:
+                leaderless.discard(_group(verdict))
                 leaders.setdefault(index, []).append(verdict)
     return leaders

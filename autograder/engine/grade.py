@@ -3,61 +3,32 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
-from typing import Literal
 
 import msgspec
 from msgspec.structs import replace
 
 import autograder
-from autograder.course import LATER_POINTS, Course
+from autograder.course import Course
 from autograder.engine.corpus import Corpus, draw_corpus
 from autograder.engine.explain import wants_explanation
 from autograder.engine.explain_all import explain_all
 from autograder.engine.local import Answer, Pool, default_workers
+from autograder.engine.run import Assigned, Progress, Run, Settings
 from autograder.engine.store import DRAFT, RunRecord, Store, code_digest, fingerprint, versions
 from autograder.engine.worker import Explained, Grade, Graded, Orders, Trouble
 from autograder.errors import SandboxError
 from autograder.intake.submission import Submission
+from autograder.intake.written import written_answers
+from autograder.problems.variants import published
 from autograder.stages.catalogue import all_stages
-from autograder.verdicts import Result, StageVerdict
+from autograder.verdicts import Result
+
+__all__ = ["Assigned", "Progress", "Run", "Settings", "grade"]
 
 LEVELS = ("none", "seccomp", "full")
-
-
-@dataclass(frozen=True)
-class Settings:
-    """What the command line sets for one run; see `autograder grade --help`."""
-
-    seed: int = 0
-    examples: int = 200
-    workers: int | None = None
-    time_limit: float = 2.0
-    fresh: bool = False
-    feedback: Literal["full", "hint", "score"] = "full"
-    min_confinement: Literal["full", "seccomp", "none"] = "seccomp"
-    allow_unconfined: bool = False
-
-
-@dataclass(frozen=True)
-class Progress:
-    """One submission has its result: `done` of `total`; `reused` of them were graded before."""
-
-    done: int
-    total: int
-    reused: int
-    submission: str
-
-
-@dataclass(frozen=True)
-class Run:
-    """What a run ends with: a result for every submission that was reached, and its record."""
-
-    results: tuple[Result, ...]
-    record: RunRecord
-    interrupted: bool
 
 
 def grade(
@@ -66,6 +37,7 @@ def grade(
     settings: Settings,
     out: Path,
     on_progress: Callable[[Progress], None] = lambda _: None,
+    assigned: Mapping[str, Assigned] | None = None,
 ) -> Run:
     """Grade all submissions into a folder.
 
@@ -81,6 +53,8 @@ def grade(
         The output folder; results that it already holds from the same work are reused.
     on_progress : callable
         Called after every result.
+    assigned : mapping of str to Assigned
+        For each submission its student and variant; the worked example where nothing is said.
 
     Returns
     -------
@@ -94,7 +68,7 @@ def grade(
     UsageError
         Where the output folder cannot be written.
     """
-    return _Grading(submissions, course, settings, Store(out), on_progress).run()
+    return _Grading(submissions, course, settings, Store(out), on_progress, assigned or {}).run()
 
 
 class _Grading:
@@ -107,12 +81,15 @@ class _Grading:
         settings: Settings,
         store: Store,
         on_progress: Callable[[Progress], None],
+        assigned: Mapping[str, Assigned],
     ) -> None:
         self.began = time.perf_counter()
         self.submissions = sorted(submissions, key=lambda one: one.id)
         self.course, self.settings, self.store, self.on_progress = course, settings, store, on_progress
+        everybodys = Assigned(published())
+        self.assigned = {one.id: assigned.get(one.id, everybodys) for one in submissions}
         self.stages = tuple(stage for stage in all_stages() if stage.name in course.stages)
-        self.points = {stage.name: course.points[stage.name] for stage in self.stages}
+        self.points = {name: course.points[name] for name in course.stages}
         self.results: dict[str, Result] = {}
         self.reused = 0
         self.level = ""
@@ -167,7 +144,7 @@ class _Grading:
             elif submission.source is None:
                 self._finish(self._rejected(submission))
             else:
-                jobs.append((index, Grade(submission.source)))
+                jobs.append((index, self._job(submission)))
         late: list[int] = []
 
         def done(index: int, answer: Answer) -> None:
@@ -182,9 +159,12 @@ class _Grading:
     def _confirm(self, pool: Pool, late: list[int]) -> None:
         """Run those that ran out of time once more, each alone on the machine; that verdict stands."""
         for index in late:
-            submission = self.submissions[index]
-            assert submission.source is not None  # it ran
-            pool.run([(index, Grade(submission.source))], self._done)
+            pool.run([(index, self._job(self.submissions[index]))], self._done)
+
+    def _job(self, submission: Submission) -> Grade:
+        assert submission.source is not None  # a rejected upload has no job
+        sheet = self.assigned[submission.id].sheet
+        return Grade(submission.source, sheet, written_answers(submission.markdown))
 
     def _done(self, index: int, answer: Answer) -> None:
         self._finish(self._result(self.submissions[index], answer))
@@ -204,6 +184,7 @@ class _Grading:
             return self._base(submission, status="grader_error", message=message, score=None, seconds=0.0)
         bonus = sum(stage.score for stage in answer.stages if stage.bonus)
         score = sum(stage.score for stage in answer.stages if not stage.bonus) + bonus
+        awaiting = sum(stage.max_score for stage in answer.stages if stage.status == "awaiting_mark")
         fingerprint = self._fingerprint(submission)
         if any(wants_explanation(stage) for stage in answer.stages):
             fingerprint += DRAFT
@@ -211,13 +192,26 @@ class _Grading:
             submission,
             status="graded",
             fingerprint=fingerprint,
-            message="",
             score=round(min(score, max(self.course.bonus_cap, self.max_score)), 6),
             seconds=answer.seconds,
             bonus=bonus,
-            stages=(*answer.stages, *self._not_yet_graded()),
-            notes=(*submission.notes, *answer.notes),
+            provisional=awaiting > 0,
+            awaiting=awaiting,
+            stages=answer.stages,
+            notes=(*filter(None, [self.assigned[submission.id].note]), *submission.notes, *answer.notes),
+            flags=self._flags(submission, answer),
+            written=answer.written,
         )
+
+    def _flags(self, submission: Submission, answer: Graded) -> tuple[str, ...]:
+        """Say, to staff only, where a submission carries the numbers of somebody else."""
+        assigned = self.assigned[submission.id]
+        if assigned.others is None or submission.source is None:
+            return ()
+        carried = assigned.others.in_text(assigned.student_id, "\n".join(submission.source.cells))
+        if answer.iterates is not None:
+            carried = [*assigned.others.in_answers(assigned.student_id, answer.iterates), *carried]
+        return tuple(each.text() for each in carried)
 
     def _rejected(self, submission: Submission) -> Result:
         return self._base(submission, status="rejected", message=submission.rejection, score=0.0, seconds=0.0)
@@ -226,6 +220,8 @@ class _Grading:
         return msgspec.convert(
             {
                 "submission": submission.id,
+                "student_id": self.assigned[submission.id].student_id or submission.student_id,
+                "variant": self.assigned[submission.id].variant.identifier,
                 "max_score": self.max_score,
                 "confinement": self.level,
                 "seed": self.settings.seed,
@@ -240,15 +236,7 @@ class _Grading:
     @property
     def max_score(self) -> float:
         """Points without the bonus stages."""
-        return sum(self.points[stage.name] for stage in self.stages if not stage.bonus)
-
-    def _not_yet_graded(self) -> list[StageVerdict]:
-        known = {stage.name for stage in all_stages()}
-        return [
-            StageVerdict(name=name, status="not_graded", score=0.0, max_score=0.0, message="Not yet graded.")
-            for name in LATER_POINTS
-            if name not in known
-        ]
+        return self.course.max_score
 
     def _finish(self, result: Result) -> None:
         self.store.save(result)
@@ -271,6 +259,9 @@ class _Grading:
                 submission.id,
                 submission.digest,
                 submission.rejection,
+                self.assigned[submission.id].variant.identifier,
+                self.assigned[submission.id].student_id or "",
+                *submission.markdown,
             ]
         )
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from autograder.diagnosis.equivalence import Convention, Rows, convention
 from autograder.diagnosis.recognise import Recogniser
 from autograder.engine import evidence, follow
-from autograder.engine.collect import Collected, Reply
+from autograder.engine.collect import Absent, Collected, Reply
 from autograder.engine.groups import digest
 from autograder.engine.plan import Plan, Task
 from autograder.problems.cases import simplicity
@@ -21,6 +21,7 @@ from autograder.verdicts import CheckVerdict, StageStatus, StageVerdict
 
 # What a stage is called whose first failed check failed for this reason.
 _STATUS_OF_FAILURE: dict[str, StageStatus] = {
+    "missing": "missing",
     "timeout": "timeout",
     "budget": "timeout",
     "memory": "memory",
@@ -55,10 +56,8 @@ class Judge:
         self, stage: Stage, tasks: tuple[Task, ...], collected: Collected, accepted: Convention | None
     ) -> StageVerdict:
         points = self.plan.points[stage.name]
-        if stage.function not in collected.loaded.functions:
-            return _missing(stage, tasks, points)
-        replies = [collected.replies[task.batch] for task in tasks]
-        remarks = evidence.remarks(tasks, collected.replies)
+        replies = [collected.replies.get(task.batch) or _absent(task) for task in tasks]
+        remarks = evidence.remarks(tasks, replies)
         if accepted is not None and stage.name in _INTERCHANGEABLE:
             checks = [_passed(task, points) for task in tasks]
             return _verdict(stage, points, checks, "passed", remarks=(accepted.remark, *remarks))
@@ -71,6 +70,8 @@ class Judge:
                 for check, task, reply in zip(checks, tasks, replies, strict=True)
             ]
         if status == "passed":
+            return _verdict(stage, points, checks, status, remarks=remarks)
+        if status == "missing":
             return _verdict(stage, points, checks, status, remarks=remarks)
         followed = all(check.passed or check.points for check in checks)
         slip = None if followed else self._recognise(stage, tasks, replies)
@@ -144,9 +145,9 @@ class Judge:
         return convention(given, expected)
 
 
-def _missing(stage: Stage, tasks: tuple[Task, ...], points: float) -> StageVerdict:
-    message = f"{stage.function} is not defined in the submission."
-    return _verdict(stage, points, [_check_verdict(task, points, message=message) for task in tasks], "missing")
+def _absent(task: Task) -> Reply:
+    """Stand in for a check whose function is not defined."""
+    return Reply(Absent(f"{task.stage.function} is not defined in the submission."))
 
 
 def _verdict(
@@ -200,7 +201,9 @@ def _passed(task: Task, points: float) -> CheckVerdict:
 
 def _check(task: Task, reply: Reply, points: float) -> tuple[CheckVerdict, StageStatus]:
     if reply.failure is not None:
-        message = f"While {task.stage.function} ran, {reply.failure.message}."
+        message = reply.failure.message
+        if not isinstance(reply.failure, Absent):
+            message = f"While {task.stage.function} ran, {message}."
         return _check_verdict(task, points, message=message), _STATUS_OF_FAILURE[reply.failure.reason]
     if reply.passed:
         return _passed(task, points), "passed"

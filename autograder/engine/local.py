@@ -5,6 +5,8 @@ from __future__ import annotations
 import contextlib
 import multiprocessing
 import os
+import signal
+import threading
 from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -17,6 +19,7 @@ from autograder.engine import worker
 from autograder.engine.worker import Explained, Graded, Job, Ready, Trouble
 from autograder.errors import SandboxError
 
+_MAIN = threading.main_thread()  # the only one that may set signal handlers
 MAX_LOSSES = 2  # a submission whose worker is lost so often is given up
 Answer = Graded | Explained | Trouble
 MAX_FRAME = 64 * 1024 * 1024
@@ -111,7 +114,13 @@ class Pool:
         context = multiprocessing.get_context("spawn")  # a fresh interpreter: nothing of the client is inherited
         ours, theirs = context.Pipe()
         process = context.Process(target=worker.main, args=(theirs, self.orders), daemon=True)
-        process.start()
+        # A worker is born deaf to Ctrl-C, which is the client's to handle, even while it still imports.
+        before = signal.signal(signal.SIGINT, signal.SIG_IGN) if threading.current_thread() is _MAIN else None
+        try:
+            process.start()
+        finally:
+            if before is not None:
+                signal.signal(signal.SIGINT, before)
         theirs.close()
         return _Worker(process, ours)
 

@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from assignment.posegraph import PoseGraph
+from assignment.posegraph import PoseGraph, Ranging
 from autograder.engine.corpus import Corpus
 from autograder.problems.cases import Case
 from autograder.problems.ladders import Rung
 from autograder.sandbox import frames
 from autograder.stages.base import Stage
 
+Shared = PoseGraph | Ranging
 SLACK = 16  # numbers that an answer may hold beyond twice the expected ones before only its shape is reported
 
 
@@ -58,7 +59,7 @@ class Plan:
     follow_through: float
     corpus: Corpus
     inputs: bytes
-    objects: Mapping[PoseGraph, int] = field(repr=False)
+    objects: Mapping[Shared, int] = field(repr=False)
 
     @cached_property
     def stages(self) -> tuple[tuple[Stage, tuple[Task, ...]], ...]:
@@ -95,22 +96,22 @@ def make_plan(
     """Lay out every call of a run."""
     tasks: list[Task] = []
     batches: list[frames.Batch] = []
-    objects: dict[PoseGraph, int] = {}
+    objects: dict[Shared, int] = {}
     for stage in stages:
         for rung in stage.ladder.rungs:
             cases = corpus.cases[stage.ladder.name][rung.name]
             calls = [call for case in cases for call in stage.calls(case)]
             for call in calls:
                 for argument in call:
-                    if isinstance(argument, PoseGraph):
+                    if isinstance(argument, PoseGraph | Ranging):
                         objects.setdefault(argument, len(objects))
-            tasks.append(Task(stage, rung, cases, len(batches)))
-            batches.append(_batch(stage, calls, objects))
-    inputs = frames.encode_inputs(frames.Inputs(objects=[graph_data(graph) for graph in objects], batches=batches))
+            tasks.append(Task(stage.facet(rung.name), rung, cases, len(batches)))
+            batches.append(_batch(stage.facet(rung.name), calls, objects))
+    inputs = frames.encode_inputs(frames.Inputs(objects=[shared_data(each) for each in objects], batches=batches))
     return Plan(tuple(tasks), points, follow_through, corpus, inputs, objects)
 
 
-def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[PoseGraph, int]) -> frames.Batch:
+def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[Shared, int]) -> frames.Batch:
     largest = max((array.size for call in calls for array in stage.expected(*call)), default=0)
     return frames.Batch(
         function=stage.function,
@@ -120,15 +121,22 @@ def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[PoseGraph, int]
     )
 
 
-def _argument(argument: Any, objects: Mapping[PoseGraph, int]) -> frames.Argument:
-    if isinstance(argument, PoseGraph):
+def _argument(argument: Any, objects: Mapping[Shared, int]) -> frames.Argument:
+    if isinstance(argument, PoseGraph | Ranging):
         known = objects.get(argument)
-        return graph_data(argument) if known is None else known
+        return shared_data(argument) if known is None else known
     return frames.Array(argument.shape, np.asarray(argument, dtype="<f8").tobytes())
 
 
-def graph_data(graph: PoseGraph) -> frames.GraphData:
-    """Turn a graph into bytes for the sandbox."""
+def shared_data(graph: Shared) -> frames.GraphData | frames.RangingData:
+    """Turn a graph or a ranging into bytes for the sandbox."""
+    if isinstance(graph, Ranging):
+        return frames.RangingData(
+            beacon=graph.beacon.astype("<f8").tobytes(),
+            poses=graph.poses.astype("<i8").tobytes(),
+            ranges=graph.ranges.astype("<f8").tobytes(),
+            variances=graph.variances.astype("<f8").tobytes(),
+        )
     return frames.GraphData(
         n_poses=graph.n_poses,
         edges=graph.edges.astype("<i8").tobytes(),

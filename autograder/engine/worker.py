@@ -11,14 +11,19 @@ from typing import Any
 
 import msgspec
 
+from autograder.engine.answering import judge_answers, judge_written
 from autograder.engine.collect import collect
 from autograder.engine.corpus import case_of, load_corpus, plain_case
 from autograder.engine.explain import Explainer, Explanation
+from autograder.engine.follow import STAGE
 from autograder.engine.judge import Judge
 from autograder.engine.plan import Plan, make_plan
 from autograder.errors import AutograderError
+from autograder.problems.variants import published
 from autograder.sandbox.frames import Source
-from autograder.sandbox.host import Limits, Sandbox
+from autograder.sandbox.host import Answers, Limits, Sandbox
+from autograder.stages import answers, written
+from autograder.stages.answers import Sheet
 from autograder.stages.catalogue import stage
 from autograder.verdicts import StageVerdict
 
@@ -49,9 +54,15 @@ class Orders(msgspec.Struct, frozen=True):
 
 
 class Grade(msgspec.Struct, frozen=True, tag=True):
-    """Ask to run and judge one submission."""
+    """Ask to run and judge one submission.
+
+    `sheet` is the variant on record: its identifier, and its graph and iterates as a plain case;
+    None stands for the worked example. `markdown_answers` is what a notebook says under the written questions.
+    """
 
     source: Source
+    sheet: tuple[str, list[Any]] | None = None
+    markdown_answers: dict[str, str] = {}
 
 
 class Explain(msgspec.Struct, frozen=True, tag=True):
@@ -83,6 +94,8 @@ class Graded(msgspec.Struct, frozen=True, tag=True):
     notes: tuple[str, ...]
     ran_out: bool
     seconds: float
+    written: dict[str, str]
+    iterates: list[list[float]] | None
 
 
 class Explained(msgspec.Struct, frozen=True, tag=True):
@@ -143,19 +156,33 @@ class _Examiner:
     def do(self, job: Job) -> Message:
         """Do one job; whatever goes wrong here is the grader's fault, never a zero."""
         try:
-            return self._grade(job.source) if isinstance(job, Grade) else self._explain(job)
+            return self._grade(job) if isinstance(job, Grade) else self._explain(job)
         except Exception as error:
             if os.environ.get("AUTOGRADER_DEBUG"):
                 raise
             return Trouble(f"The grader failed ({type(error).__name__}: {error}).")
 
-    def _grade(self, source: Source) -> Graded:
+    def _grade(self, job: Grade) -> Graded:
         began = time.perf_counter()
-        with self.sandbox.open(source) as session:
+        sheet = _sheet(job)
+        with self.sandbox.open(job.source) as session:
             collected = collect(session, self.plan)
-        stages = self.judge.judge(collected)
-        notes = tuple(f"{note.where}: {note.message}" for note in collected.loaded.notes)
-        return Graded(stages, notes, collected.ran_out, time.perf_counter() - began)
+            stages = list(self.judge.judge(collected))
+            given = collected.loaded.answers
+            if answers.NAME in self.plan.points:
+                step_is_right = any(verdict.name == STAGE and verdict.status == "passed" for verdict in stages)
+                stages.append(judge_answers(self.plan, sheet, given, session, step_is_right))
+        texts = _texts(given, job.markdown_answers)
+        if written.NAME in self.plan.points:
+            stages.append(judge_written(self.plan.points[written.NAME], texts))
+        return Graded(
+            stages=tuple(stages),
+            notes=tuple(f"{note.where}: {note.message}" for note in collected.loaded.notes),
+            ran_out=collected.ran_out,
+            seconds=time.perf_counter() - began,
+            written=texts,
+            iterates=None if given.iterates is None or given.iterates.ndim != 2 else given.iterates.tolist(),
+        )
 
     def _explain(self, job: Explain) -> Explained:
         verdicts, known = [], []
@@ -175,3 +202,16 @@ def _explanation(known: Known) -> Explanation:
 
 def _known(explanation: Explanation) -> Known:
     return Known(explanation.facts, None if explanation.witness is None else plain_case(explanation.witness))
+
+
+def _sheet(job: Grade) -> Sheet:
+    if job.sheet is None:
+        return Sheet(published().identifier, published().graph, published().iterates)
+    graph, iterates = case_of(job.sheet[1])
+    return Sheet(job.sheet[0], graph, iterates)
+
+
+def _texts(given: Answers, markdown: dict[str, str]) -> dict[str, str]:
+    """Join the written answers: a string that is set wins over the markdown of the notebook."""
+    strings = {"2": given.written_2, "3": given.written_3}
+    return {**markdown, **{question: text for question, text in strings.items() if text is not None}}

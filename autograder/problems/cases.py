@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from assignment.posegraph import PoseGraph
+from assignment.posegraph import PoseGraph, Ranging
 
 Case = tuple[Any, ...]
-"""The arguments of one call: float64 arrays and pose graphs."""
+"""The arguments of one call: float64 arrays, pose graphs and rangings."""
 
 
 def key(case: Case) -> bytes:
@@ -26,13 +26,15 @@ def simplicity(case: Case) -> tuple[int, int, bytes]:
 
 
 def fields(argument: Any) -> tuple[np.ndarray, ...]:
-    """Return the arrays that make up an argument: itself, or the fields of a pose graph.
+    """Return the arrays that make up an argument: itself, or the fields of a pose graph or a ranging.
 
     Examples
     --------
     >>> [array.tolist() for array in fields(PoseGraph(2, [(0, 1)], [1], [4], [0], [0], [1]))]
     [2, [[0, 1]], [1.0], [4.0], [0], [0.0], [1.0]]
     """
+    if isinstance(argument, Ranging):
+        return (argument.beacon, argument.poses, argument.ranges, argument.variances)
     if not isinstance(argument, PoseGraph):
         return (argument,)
     return (

@@ -6,6 +6,8 @@ every machine, with no random generator.
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 
 from assignment.posegraph import PoseGraph, Ranging
@@ -222,7 +224,7 @@ RANGES: tuple[Case, ...] = (
 def _real_loop(n_poses: int, edges: list[tuple[int, int]], prior: int, variance: float, salt: float) -> Case:
     """Make a real-valued loop with one prior, and two states with irregular digits."""
     x, made = _real(n_poses, edges, [prior], salt)
-    held = PoseGraph(n_poses, made.edges, made.measurements, made.edge_variances, [prior], made.prior_means, [variance])
+    held = dataclasses.replace(made, prior_variances=np.array([variance]))
     return np.array([0.1 * x, 1.0 - 0.1 * x[::-1]]), held
 
 

@@ -71,6 +71,14 @@ MATRICES = Ladder(
     ),
 )
 
+RANGINGS = Ladder(
+    "rangings",
+    (
+        Rung("distances", "distances to a beacon beside the line", 0.5, core.RANGES),
+        Rung("derivatives", "how these distances change with x", 0.5, core.RANGES),
+    ),
+)
+
 LOOPS = Ladder(
     "loops",
     (

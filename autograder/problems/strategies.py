@@ -14,7 +14,7 @@ from hypothesis import assume
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
-from assignment.posegraph import PoseGraph
+from assignment.posegraph import PoseGraph, Ranging
 from autograder.problems.cases import Case
 from autograder.problems.core import jitter
 from autograder.problems.graphs import MAX_CONDITION, information
@@ -33,11 +33,13 @@ def _states(n_poses: int) -> SearchStrategy[np.ndarray]:
     return st.lists(tenths, min_size=n_poses, max_size=n_poses).map(np.array)
 
 
-def _several(elements: SearchStrategy[Any], count: int) -> SearchStrategy[list[Any]]:
+def several(elements: SearchStrategy[Any], count: int) -> SearchStrategy[list[Any]]:
+    """Draw a list of exactly so many elements."""
     return st.lists(elements, min_size=count, max_size=count)
 
 
-def _chain(n_poses: int) -> list[tuple[int, int]]:
+def chain(n_poses: int) -> list[tuple[int, int]]:
+    """Return the pairs of a walk 0 -> 1 -> ... ."""
     return [(i, i + 1) for i in range(n_poses - 1)]
 
 
@@ -51,29 +53,30 @@ def _measured(
 ) -> PoseGraph:
     k, p = len(pairs), len(priors)
     first_is_origin = priors == [0]
-    measurements = _numbers(draw, displacements, k)
-    edge_variances = _numbers(draw, st.sampled_from(variances), k)
-    means = np.zeros(1) if first_is_origin else _numbers(draw, displacements, p)
-    prior_variances = _numbers(draw, st.sampled_from((0.001, *variances)), p)
+    measurements = numbers(draw, displacements, k)
+    edge_variances = numbers(draw, st.sampled_from(variances), k)
+    means = np.zeros(1) if first_is_origin else numbers(draw, displacements, p)
+    prior_variances = numbers(draw, st.sampled_from((0.001, *variances)), p)
     return PoseGraph(n_poses, np.array(pairs), measurements, edge_variances, np.array(priors), means, prior_variances)
 
 
-def _numbers(draw: DrawFn, elements: SearchStrategy[float], count: int) -> np.ndarray:
-    return np.array(draw(_several(elements, count)))
+def numbers(draw: DrawFn, elements: SearchStrategy[float], count: int) -> np.ndarray:
+    """Draw an array of exactly so many numbers."""
+    return np.array(draw(several(elements, count)))
 
 
 @st.composite
 def single_loops(draw: DrawFn) -> Case:
     """Draw a walk of 2 to 6 poses with one loop closure from the first to the last."""
     n = draw(st.integers(2, 6))
-    graph = _measured(draw, n, [*_chain(n), (0, n - 1)], VARIANCES, [0])
+    graph = _measured(draw, n, [*chain(n), (0, n - 1)], VARIANCES, [0])
     return draw(_states(n)), graph
 
 
 def _tangled(draw: DrawFn, low: int, high: int) -> tuple[int, list[tuple[int, int]]]:
     n = draw(st.integers(low, high))
-    pairs = _chain(n) + [_pair(draw, n) for _ in range(draw(st.integers(1, 3)))]
-    turned = draw(_several(st.booleans(), len(pairs)))
+    pairs = chain(n) + [_pair(draw, n) for _ in range(draw(st.integers(1, 3)))]
+    turned = draw(several(st.booleans(), len(pairs)))
     pairs = [(j, i) if turn else (i, j) for (i, j), turn in zip(pairs, turned, strict=True)]
     return n, draw(st.permutations(pairs))
 
@@ -86,7 +89,7 @@ def several_loops(draw: DrawFn) -> Case:
 
 
 def _prior_poses(draw: DrawFn, n_poses: int) -> list[int]:
-    return draw(_several(st.integers(0, n_poses - 1), draw(st.integers(1, 2))))
+    return draw(several(st.integers(0, n_poses - 1), draw(st.integers(1, 2))))
 
 
 @st.composite
@@ -124,28 +127,29 @@ def real_valued(draw: DrawFn) -> Case:
     return 9.0 * draw(_states(n)) + jitter(n, salt + 0.6), graph
 
 
-def _system(J: np.ndarray, weights: np.ndarray, f: np.ndarray) -> Case:
+def system(J: np.ndarray, weights: np.ndarray, f: np.ndarray) -> Case:
+    """Make a case of J, Omega and f from the diagonal of Omega."""
     return J, np.diag(weights), f
 
 
 def _whole(draw: DrawFn, shape: tuple[int, int]) -> np.ndarray:
-    return np.array(draw(_several(st.integers(-9, 9), shape[0] * shape[1])), dtype=np.float64).reshape(shape)
+    return np.array(draw(several(st.integers(-9, 9), shape[0] * shape[1])), dtype=np.float64).reshape(shape)
 
 
 @st.composite
 def whole_numbers(draw: DrawFn) -> Case:
     """Draw small J, Omega and f of whole numbers."""
     m, n = draw(st.integers(2, 4)), draw(st.integers(2, 3))
-    weights = draw(_several(st.sampled_from(WEIGHTS), m))
-    return _system(_whole(draw, (m, n)), np.array(weights), np.array(draw(_several(steps, m))))
+    weights = draw(several(st.sampled_from(WEIGHTS), m))
+    return system(_whole(draw, (m, n)), np.array(weights), np.array(draw(several(steps, m))))
 
 
 @st.composite
 def unequal_weights(draw: DrawFn) -> Case:
     """Draw whole numbers with weights over four decades."""
     m, n = draw(st.integers(2, 5)), draw(st.integers(2, 4))
-    weights = draw(_several(st.sampled_from(WEIGHT_DECADES), m))
-    return _system(_whole(draw, (m, n)), np.array(weights), np.array(draw(_several(steps, m))))
+    weights = draw(several(st.sampled_from(WEIGHT_DECADES), m))
+    return system(_whole(draw, (m, n)), np.array(weights), np.array(draw(several(steps, m))))
 
 
 @st.composite
@@ -158,8 +162,8 @@ def graph_shaped(draw: DrawFn) -> Case:
         i, j = _pair(draw, n)
         J[row, i], J[row, j] = 1.0, -1.0
     J[m - 1, draw(st.integers(0, n - 1))] = 1.0
-    weights = draw(_several(st.sampled_from(WEIGHTS), m))
-    return _system(J, np.array(weights), np.array(draw(_several(tenths, m))) + 0.01)
+    weights = draw(several(st.sampled_from(WEIGHTS), m))
+    return system(J, np.array(weights), np.array(draw(several(tenths, m))) + 0.01)
 
 
 @st.composite
@@ -168,15 +172,15 @@ def dense(draw: DrawFn) -> Case:
     m, n = draw(st.integers(3, 7)), draw(st.integers(2, 5))
     salt = draw(st.integers(0, 99)) / 99
     J = _whole(draw, (m, n)) + jitter(m * n, salt).reshape(m, n)
-    weights = np.array(draw(_several(st.sampled_from(WEIGHTS), m))) * (1.2 + jitter(m, salt))
-    return _system(J, weights, np.array(draw(_several(tenths, m))) + jitter(m, salt + 0.4))
+    weights = np.array(draw(several(st.sampled_from(WEIGHTS), m))) * (1.2 + jitter(m, salt))
+    return system(J, weights, np.array(draw(several(tenths, m))) + jitter(m, salt + 0.4))
 
 
 @st.composite
 def full_loops(draw: DrawFn) -> Case:
     """Draw a loop through all poses, and two states to start from."""
     n = draw(st.integers(2, 5))
-    graph = _measured(draw, n, [*_chain(n), (0, n - 1)], VARIANCES, [0])
+    graph = _measured(draw, n, [*chain(n), (0, n - 1)], VARIANCES, [0])
     return _two_states(draw, n), graph
 
 
@@ -186,8 +190,8 @@ def loops_in_graphs(draw: DrawFn) -> Case:
     n = draw(st.integers(3, 6))
     i = draw(st.integers(0, n - 2))
     j = draw(st.integers(i + 1, min(n - 1, i + 3)))
-    pairs = [*_chain(n), (i, j)]
-    turned = draw(_several(st.booleans(), len(pairs)))
+    pairs = [*chain(n), (i, j)]
+    turned = draw(several(st.booleans(), len(pairs)))
     pairs = draw(st.permutations([(b, a) if turn else (a, b) for (a, b), turn in zip(pairs, turned, strict=True)]))
     graph = _measured(draw, n, pairs, VARIANCES, [draw(st.integers(0, n - 1))])
     return _two_states(draw, n), graph
@@ -197,6 +201,20 @@ def _two_states(draw: DrawFn, n_poses: int) -> np.ndarray:
     first, second = draw(_states(n_poses)), draw(_states(n_poses))
     assume(np.abs(first - second).max() >= 1.0)
     return np.array([first, second])
+
+
+@st.composite
+def rangings(draw: DrawFn, exact: bool = False) -> Case:
+    """Draw a state and ranges to a beacon anywhere but on the line; whole numbers where `exact`."""
+    n = draw(st.integers(2, 3 if exact else 6))
+    q = draw(st.integers(1, 2 if exact else 4))
+    beacon = np.array([float(draw(st.integers(-9, 9))), float(draw(steps))])
+    poses = np.array(draw(several(st.integers(0, n - 1), q)))
+    ranges = np.array(draw(several(st.integers(0, 99), q))) / (1.0 if exact else 10.0)
+    salt = 0.0 if exact else draw(st.integers(0, 99)) / 99
+    shift = np.zeros(n) if exact else jitter(n, salt)
+    x = np.array(draw(several(st.integers(-9, 9), n)), dtype=np.float64) + shift
+    return x, Ranging(beacon, poses, ranges, np.full(q, 0.01))
 
 
 STRATEGIES: dict[str, dict[str, SearchStrategy[Case]]] = {
@@ -214,65 +232,5 @@ STRATEGIES: dict[str, dict[str, SearchStrategy[Case]]] = {
         "dense": dense(),
     },
     "loops": {"single_loops": full_loops(), "loops_in_graphs": loops_in_graphs()},
-}
-
-
-# Small cases of whole numbers, for witnesses: what a student can redo by hand.
-
-_small = st.integers(-3, 3).map(float)
-_tiny_variances = st.sampled_from((1.0, 2.0, 4.0))
-
-
-@st.composite
-def small_graphs(draw: DrawFn, low: int = 2, high: int = 3) -> Case:
-    """Draw a graph of two or three poses (or as told) with whole numbers; it shrinks to one without a loop."""
-    n = draw(st.integers(low, high))
-    pairs = _chain(n) + [_pair(draw, n) for _ in range(draw(st.integers(0, 2)))]
-    if draw(st.booleans()):
-        pairs = pairs[::-1]
-    priors = draw(st.lists(st.integers(0, n - 1), min_size=1, max_size=2))
-    k, p = len(pairs), len(priors)
-    graph = PoseGraph(
-        n,
-        np.array(pairs),
-        _numbers(draw, _small, k),
-        _numbers(draw, _tiny_variances, k),
-        np.array(priors),
-        _numbers(draw, _small, p),
-        _numbers(draw, _tiny_variances, p),
-    )
-    return _numbers(draw, _small, n), graph
-
-
-@st.composite
-def small_matrices(draw: DrawFn) -> Case:
-    """Draw J, Omega and f of at most three rows and two columns, whole numbers."""
-    m, n = draw(st.integers(1, 3)), draw(st.integers(1, 2))
-    J = np.array(draw(_several(st.integers(-3, 3), m * n)), dtype=np.float64).reshape(m, n)
-    return _system(J, _numbers(draw, _tiny_variances, m), _numbers(draw, _small, m))
-
-
-@st.composite
-def small_loops(draw: DrawFn) -> Case:
-    """Draw a loop of two or three poses and two states, whole numbers."""
-    n = draw(st.integers(2, 3))
-    pairs = [*_chain(n), (0, n - 1)]
-    graph = PoseGraph(
-        n,
-        np.array(pairs),
-        _numbers(draw, _small, n),
-        _numbers(draw, _tiny_variances, n),
-        np.array([0]),
-        np.zeros(1),
-        np.ones(1),
-    )
-    states = np.array([_numbers(draw, _small, n), _numbers(draw, _small, n)])
-    assume(np.abs(states[0] - states[1]).max() >= 1.0)
-    return states, graph
-
-
-WITNESSES: dict[str, tuple[SearchStrategy[Case], ...]] = {
-    "graphs": (small_graphs(), small_graphs(4, 6)),
-    "matrices": (small_matrices(),),
-    "loops": (small_loops(),),
+    "rangings": {"distances": rangings(), "derivatives": rangings()},
 }

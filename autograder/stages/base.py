@@ -103,6 +103,8 @@ class Stage(ABC):
         Where its cases come from: one rung, one check.
     shares : dict
         Share of the points for each rung of the ladder; they add up to 1.
+    takes_truth : bool
+        Whether truth values are a proper answer.
     """
 
     name: str
@@ -114,6 +116,11 @@ class Stage(ABC):
     parts: int = 1
     ladder: Ladder
     shares: dict[str, float]
+    takes_truth: bool = False
+
+    def facet(self, rung: str) -> Stage:
+        """Return the stage as one rung sees it: itself, unless its checks call different functions."""
+        return self
 
     def calls(self, case: Case) -> list[Case]:
         """Arguments of the calls that one case needs, in order."""

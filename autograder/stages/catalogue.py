@@ -7,6 +7,7 @@ import pkgutil
 from functools import cache
 
 from autograder import stages as package
+from autograder.stages import answers, written
 from autograder.stages.base import Slip, Stage
 
 
@@ -24,6 +25,26 @@ def all_stages() -> tuple[Stage, ...]:
     )
     found = (getattr(module, "STAGE", None) for module in modules)
     return tuple(sorted((stage for stage in found if stage is not None), key=lambda stage: stage.position))
+
+
+@cache
+def points() -> dict[str, float]:
+    """Return the points of every stage where the course file says nothing, in the order of the homework.
+
+    Examples
+    --------
+    >>> sum(points()[name] for name in points() if name not in bonus())
+    100.0
+    """
+    main = {stage.name: stage.points for stage in all_stages() if not stage.bonus}
+    extra = {stage.name: stage.points for stage in all_stages() if stage.bonus}
+    return {**main, answers.NAME: answers.POINTS, written.NAME: written.POINTS, **extra}
+
+
+@cache
+def bonus() -> frozenset[str]:
+    """Return the stages whose points are shown apart and come on top of the maximum."""
+    return frozenset(stage.name for stage in all_stages() if stage.bonus)
 
 
 def stage(name: str) -> Stage:

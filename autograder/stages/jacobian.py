@@ -40,7 +40,7 @@ class Jacobian(ArrayStage):
         Central differences with h = 1e-6 err by about eps |f| / h = 2e-16 * 200 / 1e-6 = 4e-8 at
         |x| <= 100; they pass with room to spare.
         """
-        return (np.float64(1e-6),)  # type: ignore[return-value]  # a scalar broadcasts over all entries
+        return (np.full(1, 1e-6),)  # broadcast over all entries
 
     def explain(self, case: Case, got: tuple[Array, ...]) -> str:
         """Name the first wrong row, or the column where only one column is wrong."""

@@ -16,12 +16,21 @@ from autograder.engine.grade import Settings, grade
 from autograder.engine.store import Store
 from autograder.errors import SandboxError, UsageError
 from autograder.intake.submission import collect
+from autograder.problems.conclusion import RIGHT, choices
 from tests.engine.conftest import REFERENCE
 
 SETTINGS = Settings(examples=10, time_limit=0.3, workers=2)
 COURSE = Course()
+ANSWERS = """
+
+iterates = np.array([[0, 1.1, 2.1, 3.2, 0.5], *[[0, 1.0, 1.9, 2.9, 0.1]] * 3])
+conclusion = "{letter}"
+written_2 = "The second step is zero."
+written_3 = "f is linear in x."
+""".format(letter=next(choice.letter for choice in choices("worked-example") if choice.identifier == RIGHT))
+FULL = 105.0  # all but the written answers, and both bonus stages
 CLASS = {
-    "ada": REFERENCE,
+    "ada": REFERENCE + ANSWERS,
     "bob": REFERENCE.replace("1.0 / variances", "variances"),
     "cleo": REFERENCE + "\n\ndef residual(x, graph):\n    return 1 / 0\n",
     "dan": "x = 1\n",
@@ -54,9 +63,10 @@ def test_every_submission_has_a_result(uploads, tmp_path):
     run = grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out")
     assert [result.submission for result in run.results] == sorted(CLASS)
     scores = {result.submission: result.score for result in run.results}
-    assert scores["ada"] == run.results[0].max_score == 90
+    assert (scores["ada"], run.results[0].max_score) == (FULL, 100.0)
+    assert (run.results[0].provisional, run.results[0].awaiting) == (True, 5.0)
     assert scores["dan"] == 0
-    assert 0 < scores["bob"] < 90
+    assert 0 < scores["bob"] < 100
     store = Store(tmp_path / "out")
     assert tuple(store.read(name) for name in sorted(CLASS)) == run.results
     record = json.loads((tmp_path / "out/run.json").read_bytes())
@@ -102,10 +112,10 @@ def test_a_changed_upload_is_noticed(uploads, tmp_path):
     """Only the submission that changed is graded again."""
     out = tmp_path / "out"
     grade(collect([uploads]), COURSE, SETTINGS, out)
-    (uploads / "dan.py").write_text(REFERENCE)
+    (uploads / "dan.py").write_text(REFERENCE + ANSWERS)
     run = grade(collect([uploads]), COURSE, SETTINGS, out)
     assert (run.record.graded_now, run.record.reused) == (1, 4)
-    assert run.results[3].score == 90
+    assert run.results[3].score == FULL
 
 
 @pytest.mark.parametrize("damage", [b"", b"{", b'{"submission": "ada"}', b"null", b"\xff\xfe"])
@@ -117,7 +127,7 @@ def test_a_damaged_result_is_not_believed(uploads, tmp_path, damage):
     path = out / "results/ada.json"
     whole = path.read_bytes()
     path.write_bytes(damage or whole[: len(whole) // 2])
-    assert grade(submissions, COURSE, SETTINGS, out).results[0].score == 90
+    assert grade(submissions, COURSE, SETTINGS, out).results[0].score == FULL
 
 
 def test_a_rejected_upload_scores_zero_and_says_why(uploads, tmp_path):

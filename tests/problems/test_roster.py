@@ -126,7 +126,7 @@ def test_names_come_back_as_they_were_written(
 ) -> None:
     """Whatever stands in a name, the row keeps its id and the name its text, but for outer blanks."""
     buffer = io.StringIO(newline="")
-    writer = csv.writer(buffer, delimiter=separator, quoting=quoting)  # type: ignore[arg-type]
+    writer = csv.writer(buffer, delimiter=separator, quoting=quoting)  # type: ignore[arg-type]  # wrong on purpose
     writer.writerow(["student_id", "name"])
     writer.writerows([f"s{k}", name] for k, name in enumerate(names))
     path = tmp_path_factory.mktemp("roster") / "roster.csv"

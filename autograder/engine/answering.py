@@ -1,0 +1,100 @@
+"""Judge what a submission reports: iterates and conclusion against the variant on record, and the written answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from autograder.engine.follow import array_of
+from autograder.engine.plan import Plan
+from autograder.sandbox.frames import Outcome
+from autograder.sandbox.host import Answers, Outputs, Session
+from autograder.stages import answers as stage
+from autograder.stages import written
+from autograder.stages.answers import Finding, Sheet
+from autograder.verdicts import CheckVerdict, StageStatus, StageVerdict
+
+
+def judge_answers(
+    plan: Plan, sheet: Sheet, given: Answers, session: Session | None, step_is_right: bool
+) -> StageVerdict:
+    """Judge the stage `answers`; iterates that follow from the student's own wrong step earn the follow-through share.
+
+    `session` is asked for the student's own steps only where the iterates are wrong and the step
+    is too; None asks nothing.
+    """
+    points = plan.points[stage.NAME]
+    findings = {
+        "iterates": stage.iterates_finding(sheet, given.iterates, given.bad),
+        "conclusion": stage.conclusion_finding(sheet, given.conclusion),
+    }
+    followed = False
+    if given.iterates is not None and not findings["iterates"].right and not step_is_right and session is not None:
+        steps = own_steps(plan, session, sheet)
+        followed = steps is not None and stage.follows(sheet.iterates[0], steps, given.iterates)
+    checks = []
+    for name, finding in findings.items():
+        maximum = round(points * stage.SHARES[name], 6)
+        earned = maximum if finding.right else 0.0
+        message = finding.message
+        if name == "iterates" and followed:
+            earned = round(maximum * plan.follow_through, 6)
+            message = f"these iterates follow from your own step, which is wrong. {message}"
+        checks.append(
+            CheckVerdict(name=name, passed=finding.right, points=earned, max_points=maximum, cases=1, message=message)
+        )
+    score = round(sum(check.points for check in checks), 6)
+    wrong = [finding for finding in findings.values() if not finding.right]
+    named = next((finding for finding in wrong if finding.slip), None)
+    return StageVerdict(
+        name=stage.NAME,
+        status=_status(list(findings.values()), score),
+        score=points if not wrong else score,
+        max_score=points,
+        slip=None if named is None else named.slip,
+        hint="" if named is None else named.hint,
+        message=" ".join(check.message for check in checks if check.message),
+        checks=tuple(checks),
+    )
+
+
+def _status(findings: list[Finding], score: float) -> StageStatus:
+    if all(finding.right for finding in findings):
+        return "passed"
+    if score > 0:
+        return "partial"
+    return "failed" if any(finding.given for finding in findings) else "missing"
+
+
+def own_steps(plan: Plan, session: Session, sheet: Sheet) -> Any:
+    """Ask the student's step three times along its own way from the start; None where one is no vector."""
+    if not plan.has("gauss_newton_step"):
+        return None
+    step = plan.stage("gauss_newton_step")
+    x, found = np.array(sheet.iterates[0]), []
+    for _ in range(len(sheet.iterates) - 1):
+        outputs = session.call(plan.batch(step, [(x, sheet.graph)]))
+        if not isinstance(outputs, Outputs) or outputs.outcome[0] != Outcome.OK:
+            return None
+        dx = array_of(outputs, 0).ravel()
+        if dx.shape != x.shape:
+            return None
+        found.append(dx)
+        x = x + dx
+    return np.array(found)
+
+
+def judge_written(points: float, texts: Mapping[str, str]) -> StageVerdict:
+    """Say whether there is something to mark; the points come from a human reader."""
+    absent = written.unanswered(texts)
+    everything = len(absent) == len(written.QUESTIONS)
+    message = f"question {' and '.join(absent)}: no answer." if absent else ""
+    return StageVerdict(
+        name=written.NAME,
+        status="missing" if everything else "awaiting_mark",
+        score=0.0,
+        max_score=points,
+        message=f"{message} The rest is marked by hand.".strip() if absent and not everything else message,
+    )
