@@ -13,7 +13,7 @@ from assignment.posegraph import PoseGraph, Ranging
 from autograder.problems.problem import Problem, worked_problem
 from autograder.render.stub import reference_source
 
-__all__ = ["Solution", "range_experiment", "reference", "row_by_hand", "solve"]
+__all__ = ["Solution", "range_experiment", "reference", "row_by_hand", "solve", "solve_worked"]
 
 
 @cache
@@ -75,6 +75,12 @@ def solve(problem: Problem) -> Solution:
         rmse=float(np.sqrt(np.mean((rows[0] - problem.truth) ** 2))),
         rmse1=float(np.sqrt(np.mean((rows[1] - problem.truth) ** 2))),
     )
+
+
+@cache
+def solve_worked() -> Solution:
+    """Solve the worked example, once."""
+    return solve(worked_problem())
 
 
 def row_by_hand(graph: PoseGraph, row: int) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import json
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -34,7 +35,7 @@ def render_assignment(problem: Problem) -> dict[str, str]:
     told = {f"{name.removesuffix('.svg')}_text": _title(picture) for name, picture in pictures.items()}
     return {
         "slam1d.py": stub_module(problem),
-        "slam1d.ipynb": render_notebook("slam1d.ipynb.j2", **notebooks),
+        "slam1d.ipynb": render_notebook("slam1d.ipynb.j2", {"slam1d": {"variant": problem.variant}}, **notebooks),
         "explore.ipynb": render_notebook("explore.ipynb.j2", **notebooks),
         "README.md": fill("README.md.j2", **words, **told),
         **pictures,
@@ -46,11 +47,13 @@ def render_folder(problem: Problem) -> dict[str, str]:
     return {**{name: provided(name) for name in PROVIDED}, **render_assignment(problem)}
 
 
+@cache
 def provided(name: str) -> str:
     """Read a hand-written file of the assignment."""
     return resources.files("assignment").joinpath(name).read_text(encoding="utf-8")
 
 
+@cache
 def _carried() -> dict[str, Any]:
     """Texts that the notebooks carry along, so that they work alone."""
     return {
@@ -67,10 +70,15 @@ def _pictures(problem: Problem) -> dict[str, str]:
     graph = problem.graph
     edges = [(i, j, u) for (i, j), u in zip(graph.edges.tolist(), graph.measurements.tolist(), strict=True)]
     priors = list(zip(graph.priors.tolist(), graph.prior_means.tolist(), strict=True))
+    return {"pose_graph.svg": figure.pose_graph(graph.n_poses, edges, priors), **_general_pictures()}
+
+
+@cache
+def _general_pictures() -> dict[str, str]:
+    """Draw what is the same for every problem."""
     J, H = landmarks.patterns(landmarks.corridor())
     times = json.loads(resources.files("reference_solution").joinpath("solve_times.json").read_text(encoding="utf-8"))
     return {
-        "pose_graph.svg": figure.pose_graph(graph.n_poses, edges, priors),
         "landmarks_J.svg": figure.spy(J, "J with landmarks"),
         "landmarks_H.svg": figure.spy(H, "H with landmarks"),
         "solve_times.svg": figure.curves("Time to solve H dx = -b", "poses", "time [s]", times, log_x=True),

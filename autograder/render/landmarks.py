@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from assignment.posegraph import PoseGraph
@@ -48,6 +50,7 @@ def patterns(graph: PoseGraph) -> tuple[list[list[int]], list[list[int]]]:
     return J.astype(int).tolist(), H.astype(int).tolist()
 
 
+@cache
 def counts() -> dict[str, int]:
     """Count what the handout tells about the corridor.
 

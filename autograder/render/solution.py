@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import tempfile
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,11 @@ import nbformat
 import numpy as np
 
 from autograder.problems.conclusion import RIGHT, choices
-from autograder.problems.problem import Problem, worked_problem
-from autograder.render.facts import Solution, reference, solve
+from autograder.problems.exact import ExactGraph, decimal
+from autograder.problems.families.worked_example import worked_example
+from autograder.problems.loops import solve_by_loops
+from autograder.problems.problem import Problem
+from autograder.render.facts import Solution, reference, solve, solve_worked
 from autograder.render.handout import PROVIDED, provided, write_files
 from autograder.render.notebook import render_notebook
 from autograder.render.stub import reference_source
@@ -39,25 +43,40 @@ SHOWN = {
 
 
 def render_solution(problem: Problem) -> dict[str, str]:
-    """Render the worked solution of a problem with one loop.
+    """Render the worked solution of a problem.
+
+    Parameters
+    ----------
+    problem : Problem
+        First the edges that dead reckoning walks from pose 0, then the loops; one prior, on pose 0.
 
     Returns
     -------
     dict
         File name -> text: the notebook, not yet executed, and the page.
+
+    Raises
+    ------
+    ValueError
+        Where the edges come in another order, or the priors are others.
     """
-    source = reference_source()
-    nodes = [node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)]
     filled = {
         **values(problem),
         **_matrices(problem),
-        "functions": {node.name: ast.get_source_segment(source, node) for node in nodes},
+        "functions": _functions(),
         "shown": SHOWN,
     }
     return {
         "slam1d.ipynb": render_notebook("solution.ipynb.j2", **filled),
         "SOLUTION.md": fill("solution.md.j2", **filled),
     }
+
+
+@cache
+def _functions() -> dict[str, str | None]:
+    source = reference_source()
+    nodes = [node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)]
+    return {node.name: ast.get_source_segment(source, node) for node in nodes}
 
 
 def execute(notebook: str) -> str:
@@ -90,7 +109,7 @@ def _joined(outputs: list[nbformat.NotebookNode]) -> list[nbformat.NotebookNode]
 
 
 def _matrices(problem: Problem) -> dict[str, Any]:
-    own, worked = solve(problem), solve(worked_problem())
+    own, worked = solve(problem), solve_worked()
     b1 = own.J.T @ own.omega @ own.f1
     listed = choices(problem.variant)
     return {
@@ -105,7 +124,7 @@ def _matrices(problem: Problem) -> dict[str, Any]:
         "x1": _row(own.x1),
         "f1": _row(own.f1),
         "b1": _row(b1),
-        "loop": _loop(problem, own),
+        "loops": _loops(problem),
         "own": {
             "rmse": f"{own.rmse:.3f}",
             "rmse1": f"{own.rmse1:.3f}",
@@ -123,21 +142,22 @@ def _matrices(problem: Problem) -> dict[str, Any]:
     }
 
 
-def _loop(problem: Problem, own: Solution) -> dict[str, str]:
-    """Add up the one loop: the edge that disagrees at the start, and the edges that it spans."""
-    graph = problem.graph
-    edges = len(graph.edges)
-    closing = np.flatnonzero(np.abs(own.f[:edges]) > 1e-9)
-    if len(closing) != 1:
-        raise ValueError(f"the worked solution is written for one loop, got {len(closing)} edges that disagree")
-    low, high = sorted(graph.edges[closing[0]].tolist())
-    spanned = [low <= min(edge) and max(edge) <= high for edge in graph.edges.tolist()]
-    mismatch, total = -float(own.f[closing[0]]), float(graph.edge_variances[spanned].sum())
-    return {"mismatch": number(mismatch), "total": number(total), "current": number(mismatch / total)}
+def _loops(problem: Problem) -> dict[str, Any]:
+    """Solve the loops in fractions: variances round and shared R, mismatches e, currents q with R q = e."""
+    solved = solve_by_loops(ExactGraph.of(problem.graph))
+    return {
+        "count": len(solved.forces),
+        "mismatch": [decimal(value) for value in solved.mismatches],
+        "total": [decimal(row[k]) for k, row in enumerate(solved.matrix)],
+        "current": [decimal(value) for value in solved.forces],
+        "R": _matrix(np.array(solved.matrix, dtype=np.float64)),
+        "e": _row(np.array(solved.mismatches, dtype=np.float64)),
+        "q": _row(np.array(solved.forces, dtype=np.float64)),
+    }
 
 
 def _errata(worked: Solution) -> dict[str, str]:
-    graph = worked_problem().graph
+    graph = worked_example()
     printed = worked.H.copy()
     printed[3, 3] = 300.0
     J = worked.J[: len(graph.edges)]

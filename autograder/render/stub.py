@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 import textwrap
 from collections.abc import Sequence
+from functools import cache
 from importlib import resources
 
 import numpy as np
@@ -21,11 +22,13 @@ __all__ = ["CORE", "graph_source", "reference_source", "start_source", "stub_mod
 CORE = ("residual", "jacobian", "information_matrix", "normal_equations", "gauss_newton_step")
 
 
+@cache
 def reference_source() -> str:
     """Read the text of the reference solution."""
     return resources.files("reference_solution").joinpath("slam1d.py").read_text(encoding="utf-8")
 
 
+@cache
 def stubs(source: str) -> dict[str, str]:
     r"""Derive a stub for every public function of a module, in its order.
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from assignment.posegraph import PoseGraph
 from autograder.problems.conclusion import choices
-from autograder.problems.problem import Problem, worked_problem
+from autograder.problems.problem import Problem
 from autograder.render import landmarks
-from autograder.render.facts import row_by_hand, solve
+from autograder.render.facts import row_by_hand, solve_worked
 from autograder.render.stub import graph_source, start_source
 
 __all__ = ["values"]
@@ -39,7 +39,7 @@ ANSWER_POINTS = {"iterates": 3, "conclusion": 2, "written_2": 2, "written_3": 3,
 def values(problem: Problem) -> dict[str, Any]:
     """Collect everything that a template may name. Nothing of it is an answer about this problem."""
     graph = problem.graph
-    worked = solve(worked_problem())
+    worked = solve_worked()
     return {
         "variant": problem.variant,
         "graph": graph,

@@ -5,7 +5,7 @@ import json
 import nbformat
 import pytest
 
-from autograder.render.notebook import build_notebook
+from autograder.render.notebook import build_notebook, render_notebook
 
 
 def test_cells_keep_kind_name_and_text():
@@ -37,3 +37,14 @@ def test_a_template_with_a_mistake_is_refused(text, message):
     """Text before the first cell and a doubled name are errors."""
     with pytest.raises(ValueError, match=message):
         build_notebook(text)
+
+
+def test_what_is_written_is_what_nbformat_writes(monkeypatch):
+    """The quick way to the text of a file gives the bytes of the slow one, and validates."""
+    template = "%% markdown one\n# Größe\n\ntext\n\n%% code two\nx = 1\n\ny = 2\n\n%% provided three\n"
+    monkeypatch.setattr("autograder.render.notebook.fill", lambda *_, **__: template)
+    text = render_notebook("any", {"slam1d": {"variant": "A-0"}})
+    notebook = build_notebook(template)
+    notebook.metadata["slam1d"] = {"variant": "A-0"}
+    assert text == nbformat.writes(notebook, version=4) + "\n"
+    nbformat.validate(nbformat.reads(text, as_version=4))

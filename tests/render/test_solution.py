@@ -5,10 +5,15 @@ import re
 from pathlib import Path
 
 import nbformat
+import numpy as np
 import pytest
 
 from autograder.problems.conclusion import RIGHT, choice_of
+from autograder.problems.exact import decimal
+from autograder.problems.families import family
 from autograder.problems.problem import worked_problem
+from autograder.problems.secret import Secret
+from autograder.problems.variants import draw_variant
 from autograder.render.facts import range_experiment, solve
 from autograder.render.solution import _joined, execute, render_solution
 from tests import witness
@@ -77,13 +82,45 @@ def test_the_letter_is_that_of_the_variant(problem):
     assert choice_of(problem.variant, letter).identifier == RIGHT
 
 
-def test_a_problem_with_two_loops_is_refused():
-    """The circuit by hand is written for one loop; another problem is an error, not a wrong page."""
+def two_loops():
+    """Draw a variant with two loops that share an edge."""
+    return draw_variant(Secret(b"0123456789abcdef"), "2026S", "s1", family("C")).problem
+
+
+def test_two_loops_are_solved_together():
+    """The page shows R q = e with the shared variance off the diagonal; q solves it."""
+    page = render_solution(two_loops())["SOLUTION.md"]
+    system = re.search(r"R = (.*?) \\text\{ m\}\^2.*\\mathbf q = (.*?)\^\\top", page)
+    R, q = (
+        [
+            [float(entry) for entry in row.split("&")]
+            for row in re.sub(r"\\(begin|end)\{pmatrix\}", "", text).split(r"\cr")
+        ]
+        for text in system.groups()
+    )
+    (e,) = [
+        [float(x) for x in row.split("&")] for row in re.findall(r"mathbf e = \\begin\{pmatrix\} (.*?) \\end", page)
+    ]
+    assert np.array(R) @ np.array(q[0]) == pytest.approx(e)
+    assert R[0][1] == R[1][0] != 0
+    assert "only the edges that close a loop disagree" in page
+
+
+@pytest.mark.parametrize("letter", ["W", "A", "B", "C", "D", "L"])
+def test_every_family_has_a_worked_solution(letter):
+    """No family is left out: the page shows the new state of the variant, the notebook its answers."""
+    variant = draw_variant(Secret(b"0123456789abcdef"), "2026S", "s1", family(letter))
+    rendered = render_solution(variant.problem)
+    assert " & ".join(map(decimal, variant.x1)) in rendered["SOLUTION.md"]
+    assert repr(variant.start.tolist()) in "".join(json.loads(json.dumps(rendered["slam1d.ipynb"])))
+
+
+def test_loops_before_the_walk_are_refused():
+    """Edges in another order than dead reckoning's are an error, not a wrong page."""
     problem = another_problem()
     graph = problem.graph
     fields = {name: getattr(graph, name) for name in graph.__dataclass_fields__}
-    fields["measurements"] = graph.measurements + [0, 0, 0, 0, 0.5, 0]
-    fields["edges"] = [*graph.edges.tolist()[:4], (0, 5), (1, 4)]
-    fields["measurements"][4] += 0.25
-    with pytest.raises(ValueError, match="one loop"):
-        render_solution(type(problem)("two", type(graph)(**fields), problem.start, problem.truth))
+    for name in ("edges", "measurements", "edge_variances"):
+        fields[name] = fields[name][::-1]
+    with pytest.raises(ValueError, match="must lead from pose 0"):
+        render_solution(type(problem)("turned", type(graph)(**fields), problem.start, problem.truth))
