@@ -2,7 +2,8 @@
 
 Only `cell_type` and `source` of each cell count. Ids, metadata, outputs, execution counts and attachments are skipped
 while reading, never built: a notebook whose cells were duplicated, retyped or stripped of metadata reads like any
-other, and what its metadata or outputs claim is not seen. Where a key stands twice the last one counts, as in Jupyter.
+other, and what its outputs claim is not seen. Of the notebook's own metadata one short text is read, the variant that
+it was handed out with; it is a claim, and counts last. Where a key stands twice the last one counts, as in Jupyter.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from autograder.intake.module import MAX_SOURCE, one_newline, reject_foreign
 
 MAX_NOTEBOOK = 20 << 20  # bytes of the file, outputs included
 MAX_CELLS = 10_000
+_LONGEST_NAME = 64  # of a variant
 _MAX_RAW = 6 * MAX_SOURCE  # a source as JSON: escapes make it longer, at most six bytes for one
 _UTF8_MARK = b"\xef\xbb\xbf"
 _HIGH, _LOW = rb"\\u[dD][89abAB][0-9a-fA-F]{2}", rb"\\u[dD][c-fC-F][0-9a-fA-F]{2}"
@@ -35,19 +37,30 @@ class _Notebook(msgspec.Struct):
     cells: list[_Cell] | msgspec.UnsetType = msgspec.UNSET
     worksheets: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET  # where formats 2 and 3 keep their cells
     nbformat: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
+    metadata: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
 
 
+class _HandedOut(msgspec.Struct):
+    variant: str = ""
+
+
+class _Metadata(msgspec.Struct):
+    slam1d: _HandedOut = msgspec.field(default_factory=_HandedOut)
+
+
+_METADATA = msgspec.json.Decoder(_Metadata)
 _NOTEBOOK = msgspec.json.Decoder(_Notebook)
 _SOURCE = msgspec.json.Decoder(str | list[str])
 
 
 @dataclass(frozen=True)
 class Notebook:
-    """The texts of a notebook, in order: what may be executed, and what a human may read."""
+    """The texts of a notebook, in order: what may be executed, what a human may read, and the variant it claims."""
 
     code: tuple[str, ...]
     markdown: tuple[str, ...]
     notes: tuple[str, ...] = ()
+    variant: str = ""
 
 
 def read_notebook(data: bytes) -> Notebook:
@@ -72,7 +85,7 @@ def read_notebook(data: bytes) -> Notebook:
         notes.append("The notebook has no code cell.")
     if version != "4":
         notes.append(f"The notebook names its format {version!r}, not 4; its cells were read all the same.")
-    return Notebook(tuple(code), tuple(_markdown(notebook.cells)), tuple(notes))
+    return Notebook(tuple(code), tuple(_markdown(notebook.cells)), tuple(notes), _variant(notebook.metadata))
 
 
 def looks_like_notebook(data: bytes) -> bool:
@@ -117,6 +130,17 @@ def _parse(body: bytes) -> _Notebook:
 def _version(raw: msgspec.Raw | msgspec.UnsetType) -> str:
     """Return `nbformat` as it is written, at most a few characters of it."""
     return "" if isinstance(raw, msgspec.UnsetType) else bytes(raw)[:12].decode("ascii", "replace").removesuffix(".0")
+
+
+def _variant(raw: msgspec.Raw | msgspec.UnsetType) -> str:
+    """Return the variant that the metadata name; "" where they name none, whatever else they hold."""
+    if isinstance(raw, msgspec.UnsetType):
+        return ""
+    try:
+        stated = _METADATA.decode(raw).slam1d.variant
+    except (msgspec.DecodeError, RecursionError, ValueError):
+        return ""
+    return stated if len(stated) <= _LONGEST_NAME and stated.isprintable() else ""
 
 
 def _code(cells: list[_Cell]) -> tuple[list[str], list[str]]:

@@ -19,11 +19,12 @@ _LIMITS = {".py": MAX_NOTEBOOK, ".ipynb": MAX_NOTEBOOK, ".zip": MAX_ARCHIVE}  # 
 
 @dataclass(frozen=True)
 class Content:
-    """What an upload holds: the source, the markdown for a human reader, and remarks about the reading."""
+    """What an upload holds: source, markdown for a human reader, remarks about the reading, the variant it claims."""
 
     source: Source
     markdown: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    variant: str = ""
 
 
 def read_entry(entry: Entry) -> Content:
@@ -55,7 +56,7 @@ def digest(source: Source) -> str:
 def _read_notebook(data: bytes, name: str) -> Content:
     notebook = read_notebook(data)
     source = Source(kind="notebook", cells=list(notebook.code), name=printable(name))
-    return Content(source, notebook.markdown, notebook.notes)
+    return Content(source, notebook.markdown, notebook.notes, notebook.variant)
 
 
 def _read_archive(data: bytes) -> Content:

@@ -48,6 +48,8 @@ class Submission:
         When it was handed in, as the layout has it; "" where it does not say.
     markdown : tuple of str
         The markdown cells of a notebook, for a human reader; never executed.
+    variant : str
+        The variant that a notebook's metadata name; "" where none. A claim, not a fact.
     """
 
     id: str
@@ -61,6 +63,7 @@ class Submission:
     late: bool | None = None
     submitted: str = ""
     markdown: tuple[str, ...] = ()
+    variant: str = ""
 
 
 @dataclass(frozen=True)
@@ -174,7 +177,7 @@ def _read(item: _Found, name: str) -> Submission:
         return replace(submission, rejection=_sentence(item, str(error)))
     return replace(
         submission, source=content.source, notes=(*notes, *content.notes), digest=digest(content.source),
-        markdown=content.markdown,
+        markdown=content.markdown, variant=content.variant,
     )  # fmt: skip
 
 

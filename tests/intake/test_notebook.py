@@ -225,3 +225,21 @@ def test_any_json_is_read_or_rejected(value: Any) -> None:
             read_notebook(json.dumps(data).encode())
         except RejectedUpload as error:
             assert str(error).split()[0] in {"is", "has"}  # noqa: PT017 (either outcome is right)
+
+
+@pytest.mark.parametrize(
+    ("metadata", "stated"),
+    [
+        ({"slam1d": {"variant": "A-0123456789abcdef"}, "kernelspec": {}}, "A-0123456789abcdef"),
+        ({"slam1d": {}}, ""),
+        ({"slam1d": {"variant": 7}}, ""),
+        ({"slam1d": ["A"]}, ""),
+        ({"slam1d": {"variant": "A" * 65}}, ""),
+        ({"slam1d": {"variant": "A\n"}}, ""),
+        ([], ""),
+        (None, ""),
+    ],
+)
+def test_the_variant_in_the_metadata_is_read_where_there_is_one(metadata: object, stated: str) -> None:
+    """Of the metadata one short text is read; whatever else stands there neither counts nor hurts."""
+    assert read_notebook(notebook(cell("x = 1"), metadata=metadata)).variant == stated
