@@ -16,7 +16,6 @@ StageStatus = Literal[
     "missing",
     "forbidden",
     "awaiting_mark",
-    "not_graded",
 ]
 SubmissionStatus = Literal["graded", "rejected", "grader_error"]
 
@@ -55,12 +54,28 @@ class StageVerdict(msgspec.Struct, frozen=True, kw_only=True):
     checks: tuple[CheckVerdict, ...] = ()
 
 
+class Adjustment(msgspec.Struct, frozen=True, kw_only=True):
+    """One change of points after the machine's verdict: by a person, or by a rule of the course.
+
+    `stage` is "" where the total is meant; `said` is the whole reason in words, for the student too.
+    """
+
+    stage: str
+    before: float | None
+    after: float
+    said: str
+
+
 class Result(msgspec.Struct, frozen=True, kw_only=True):
     """One submission, as written to results/<submission>.json.
 
     `score` is None exactly when `status` is "grader_error": our fault is never a zero. `awaiting`
     are points that a human reader has still to give; as long as there are any, the score is
     `provisional`. `flags` are for staff only, such as numbers that belong to somebody else.
+    `written` are the answers in words by question, and `images` the pictures in them, by name, as
+    data URIs. `submitted` and `late` are what the system of the course says of the time. What people
+    decide later, the `comments` on written answers by question and the `adjustments`, is merged into
+    reports and never stored here.
     """
 
     submission: str
@@ -77,6 +92,11 @@ class Result(msgspec.Struct, frozen=True, kw_only=True):
     notes: tuple[str, ...] = ()
     flags: tuple[str, ...] = ()
     written: dict[str, str] = {}
+    images: dict[str, str] = {}
+    comments: dict[str, str] = {}
+    adjustments: tuple[Adjustment, ...] = ()
+    submitted: str = ""
+    late: bool | None = None
     confinement: str
     seed: int
     grader_version: str

@@ -14,7 +14,7 @@ from autograder.reports.wording import MARKS, points, visible
 from autograder.verdicts import CheckVerdict, Result, StageVerdict
 
 WIDTH = 100
-_SILENT = ("passed", "not_graded", "awaiting_mark")
+_SILENT = ("passed", "awaiting_mark")
 
 
 def feedback_text(result: Result, policy: Policy = "full", course: str = "1D SLAM") -> str:
@@ -35,8 +35,6 @@ def feedback_text(result: Result, policy: Policy = "full", course: str = "1D SLA
     lines = [f"{visible(course)}: {total(result)}"]
     lines += _wrapped(general(result), "")
     for stage in result.stages:
-        if stage.status == "not_graded":
-            continue
         lines += ["", _heading(stage, policy)]
         if stage.status not in _SILENT and policy != "score":
             lines += stage_lines(stage, policy)

@@ -70,7 +70,7 @@ def feedback_page(result: Result, policy: Policy = "full", course: str = "1D SLA
     """
     lost = []
     for stage in result.stages:
-        if stage.status in ("passed", "not_graded", "awaiting_mark"):
+        if stage.status in ("passed", "awaiting_mark"):
             continue
         failed = tuple(check for check in stage.checks if not check.passed)
         shown = next((check.counterexample for check in failed if check.counterexample), None)

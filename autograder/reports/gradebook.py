@@ -10,9 +10,11 @@ import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from autograder.reports.summary import provisional
 from autograder.verdicts import Result
 
 COLUMNS = ("submission", "student_id", "variant", "status", "score", "max_score")
+NOTE = "note"  # the last column
 # What makes a spreadsheet run a cell instead of showing it, also behind blanks and in full width.
 _STARTS_A_FORMULA = "=+-@|%\uff1d\uff0b\uff0d\uff20"
 _CONTROL = re.compile(r"[\x00-\x1f\x7f\x85\u2028\u2029]")
@@ -41,19 +43,16 @@ def gradebook_text(results: Iterable[Result], stages: Sequence[str] = ()) -> str
     >>> broken = Result(submission="=1+1", status="grader_error", score=None, max_score=90.0, confinement="full",
     ...                 seed=0, grader_version="0", fingerprint="", seconds=0.0)
     >>> print(gradebook_text([broken], ["residual"]), end="")
-    submission,student_id,variant,status,score,max_score,residual
-    '=1+1,,worked-example,grader_error,,90,
+    submission,student_id,variant,status,score,max_score,residual,note
+    '=1+1,,worked-example,grader_error,,90,,
     """
     results = list(results)
     names = list(dict.fromkeys([*stages, *(stage.name for result in results for stage in result.stages)]))
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")
-    writer.writerow([*COLUMNS, *names])
+    writer.writerow([*COLUMNS, *names, NOTE])
     for result in results:
-        scores = {
-            stage.name: "" if stage.status in ("not_graded", "awaiting_mark") else exact(stage.score)
-            for stage in result.stages
-        }
+        scores = {stage.name: "" if stage.status == "awaiting_mark" else exact(stage.score) for stage in result.stages}
         row = [
             defused(result.submission),
             defused(result.student_id or ""),
@@ -62,8 +61,13 @@ def gradebook_text(results: Iterable[Result], stages: Sequence[str] = ()) -> str
             "" if result.score is None else exact(result.score),
             exact(result.max_score),
         ]
-        writer.writerow(row + [scores.get(name, "") for name in names])
+        writer.writerow([*row, *(scores.get(name, "") for name in names), defused(remark(result))])
     return file.getvalue()
+
+
+def remark(result: Result) -> str:
+    """Say what a reader of the numbers must know: what is provisional, and what was changed by hand or by a rule."""
+    return "; ".join(filter(None, [provisional([result]), *(each.said for each in result.adjustments)]))
 
 
 def defused(text: str) -> str:

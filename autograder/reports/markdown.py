@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from autograder.reports.counterexample import counterexample_text
-from autograder.reports.summary import mean_score, most_instructive, reason, stage_summaries, troubles
+from autograder.reports.summary import mean_score, most_instructive, reason, stage_summaries, troubles, waiting
 from autograder.reports.wording import plural, points, visible
 from autograder.verdicts import Result
 
@@ -24,6 +24,8 @@ def class_markdown(results: Sequence[Result], course: str = "1D SLAM", most: int
         if mean is None
         else f"{plural(graded, 'submission')} graded, {points(mean)} of {points(top)} points on average."
     )
+    if said := waiting(results):
+        lines += ["", f"These marks are {said}."]
     lines += ["", "| stage | mean | full points |", "|---|---:|---:|"]
     lines += [
         f"| `{s.name}` | {points(s.mean)} of {points(s.max_score)} | {s.passed} of {s.graded} |"

@@ -11,7 +11,7 @@ from urllib.parse import quote
 from autograder.reports.charts import histogram
 from autograder.reports.counterexample import counterexample_text
 from autograder.reports.html import page
-from autograder.reports.summary import Trouble, stage_names, stage_summaries, troubles
+from autograder.reports.summary import Trouble, stage_names, stage_summaries, troubles, waiting
 from autograder.reports.wording import MARKS, points
 from autograder.verdicts import Result, StageVerdict
 
@@ -57,7 +57,7 @@ def class_page(results: Sequence[Result], record: Mapping[str, Any], course: str
     course : str
         Title of the homework.
     """
-    names = [name for name in stage_names(results) if any(_judged(result, name) for result in results)]
+    names = stage_names(results)
     scores = [result.score for result in results if result.status == "graded" and result.score is not None]
     most = max((result.max_score for result in results), default=0.0)
     listed = troubles(results)
@@ -77,7 +77,8 @@ def class_page(results: Sequence[Result], record: Mapping[str, Any], course: str
         more_groups=len(listed[_MOST_GROUPS:]),
         nobody=nobody_passed(results),
         unusual=unusual(results),
-        provisional=any(result.provisional for result in results),
+        provisional=waiting(results),
+        flagged=[(one.submission, link(one.submission), one.flags) for one in results if one.flags],
         legend=[(MARKS[s][0], MARKS[s][1]) for s in MARKS if MARKS[s][0] and _used(results, s)],
     )
 
@@ -141,17 +142,13 @@ def _row(result: Result, names: Sequence[str]) -> Row:
 
 
 def _cell(stage: StageVerdict | None) -> Cell:
-    if stage is None or stage.status == "not_graded":
+    if stage is None:
         return Cell("", "", "")
     share = stage.score / stage.max_score if stage.max_score else 0.0
     shade = "full" if stage.status == "passed" else ("some" if share > 0 else "none")
     if stage.status == "awaiting_mark":
         shade = ""
     return Cell(f"{points(stage.score)} {MARKS[stage.status][0]}".strip(), points(stage.score), shade)
-
-
-def _judged(result: Result, name: str) -> bool:
-    return any(stage.name == name and stage.status != "not_graded" for stage in result.stages)
 
 
 def _used(results: Sequence[Result], status: str) -> bool:

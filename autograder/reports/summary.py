@@ -8,12 +8,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from autograder.reports.wording import MARKS, visible
+from autograder.reports.wording import MARKS, points, visible
 from autograder.verdicts import Result, StageVerdict
 
 # Two messages that differ in their numbers only tell of one mistake.
 _NUMBERS = re.compile(r"-?\d[\d.]*(e-?\d+)?")
-FULL = ("passed", "not_graded", "awaiting_mark")
+FULL = ("passed", "awaiting_mark")
 
 
 @dataclass(frozen=True)
@@ -49,11 +49,11 @@ def stage_names(results: Iterable[Result]) -> list[str]:
 
 
 def stage_summaries(results: Sequence[Result]) -> list[StageSummary]:
-    """Average each stage over the graded submissions; stages that nobody grades yet are left out."""
+    """Average each stage over the graded submissions; those that wait for a reader do not count."""
     summaries = []
     for name in stage_names(results):
         verdicts = [v for r in results if r.status == "graded" for v in r.stages if v.name == name]
-        judged = [v for v in verdicts if v.status not in ("not_graded", "awaiting_mark")]
+        judged = [v for v in verdicts if v.status != "awaiting_mark"]
         if judged:
             mean = sum(v.score for v in judged) / len(judged)
             passed = sum(v.status == "passed" for v in judged)
@@ -66,6 +66,30 @@ def mean_score(results: Iterable[Result]) -> float | None:
     """Mean total of the graded submissions, None where there is none."""
     scores = [r.score for r in results if r.status == "graded" and r.score is not None]
     return sum(scores) / len(scores) if scores else None
+
+
+def provisional(results: Sequence[Result]) -> str:
+    """Say how much of the maximum is judged while points wait for a reader; "" where none do.
+
+    Examples
+    --------
+    >>> waiting = Result(submission="ann", status="graded", score=80.0, max_score=100.0, provisional=True, awaiting=5.0,
+    ...                  confinement="full", seed=0, grader_version="0", fingerprint="", seconds=0.0)
+    >>> provisional([waiting])
+    'provisional, of 95'
+    """
+    waiting = [result for result in results if result.provisional]
+    if not waiting:
+        return ""
+    least = min(result.max_score - result.awaiting for result in waiting)
+    return f"provisional, of {points(least)}"
+
+
+def waiting(results: Sequence[Result]) -> str:
+    """Say the same of a class, with how many wait; "" where nobody does."""
+    said = provisional(results)
+    count = sum(result.provisional for result in results)
+    return f"{said}: written answers of {count} of {len(results)} wait for a reader" if said else ""
 
 
 def troubles(results: Iterable[Result]) -> list[Trouble]:

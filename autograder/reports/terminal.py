@@ -13,7 +13,7 @@ from typing import TextIO
 from rich.console import Console
 from rich.text import Text
 
-from autograder.reports.summary import StageSummary, mean_score, stage_names, stage_summaries, troubles
+from autograder.reports.summary import StageSummary, mean_score, stage_names, stage_summaries, troubles, waiting
 from autograder.reports.wording import MARKS, plural, points, visible
 from autograder.verdicts import Result, StageVerdict
 
@@ -33,6 +33,8 @@ def print_class(results: Sequence[Result], to: Console) -> None:
         return
     for line in class_table(results, to.width):
         to.print(line)
+    if said := waiting(results):
+        to.print(Text(f"{said}.", style="cyan"))
     for line in not_graded(results, to.width):
         to.print(line)
     listed = went_wrong(results, to.width)
@@ -44,7 +46,7 @@ def print_class(results: Sequence[Result], to: Console) -> None:
 
 def class_table(results: Sequence[Result], width: int) -> list[Text]:
     """Lay out a line a submission with a mark a stage, then the means over those graded."""
-    stages = [name for name in stage_names(results) if _judged(results, name)]
+    stages = stage_names(results)
     heads, key = _headings(stages, width)
     cells = {r.submission: [_mark(r, name) for name in stages] for r in results}
     widths = [
@@ -121,10 +123,6 @@ def went_wrong(results: Sequence[Result], width: int, most: int = 10) -> list[Te
     return lines
 
 
-def _judged(results: Sequence[Result], name: str) -> bool:
-    return any(s.name == name and s.status != "not_graded" for r in results for s in r.stages)
-
-
 def _verdict(result: Result, name: str) -> StageVerdict | None:
     return next((stage for stage in result.stages if stage.name == name), None)
 
@@ -185,10 +183,7 @@ def _means(
 def _legend(results: Sequence[Result], width: int) -> list[Text]:
     used = {stage.status for result in results for stage in result.stages}
     key = [f"{symbol} {words}" for status, (symbol, words) in MARKS.items() if symbol and status in used]
-    later = list(dict.fromkeys(s.name for r in results for s in r.stages if s.status == "not_graded"))
     lines = [Text("marks: " + line if k == 0 else "       " + line) for k, line in enumerate(_wrapped(key, width - 7))]
-    if later:
-        lines.append(Text(f"not graded yet: {', '.join(later)}"))
     return [line for line in lines if line.plain.strip() != "marks:"]
 
 

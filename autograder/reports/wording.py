@@ -17,7 +17,6 @@ MARKS = {
     "missing": ("-", "not written"),
     "forbidden": ("F", "import not allowed"),
     "awaiting_mark": ("?", "waits for a reader"),
-    "not_graded": ("", "not graded yet"),
 }
 
 

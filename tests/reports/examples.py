@@ -43,7 +43,7 @@ def stage(name, status="passed", score=None, message="", counterexample=None, **
         score = most if status == "passed" else 0.0
     checks = (
         ()
-        if status == "not_graded"
+        if status == "awaiting_mark"
         else (
             CheckVerdict(name="worked example", passed=score > 0, points=score, max_points=most / 2, cases=1),
             CheckVerdict(

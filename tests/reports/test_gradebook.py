@@ -19,14 +19,14 @@ def rows(text: str) -> list[dict[str, str]]:
 def test_the_columns_are_those_of_the_contract() -> None:
     """Six fixed columns, then one a stage in the order of the course."""
     header = gradebook_text(small_class()).splitlines()[0].split(",")
-    assert header == ["submission", "student_id", "variant", "status", "score", "max_score", *POINTS]
+    assert header == ["submission", "student_id", "variant", "status", "score", "max_score", *POINTS, "note"]
 
 
 def test_a_row_says_what_the_result_says() -> None:
-    """Scores are plain numbers; a stage that nobody grades yet is empty."""
-    [row] = rows(gradebook_text([result("alice", stage("answers", "not_graded"), student_id="a1")]))
+    """Scores are plain numbers; a stage that waits for a reader is empty."""
+    [row] = rows(gradebook_text([result("alice", stage("written", "awaiting_mark"), student_id="a1")]))
     assert (row["submission"], row["student_id"], row["status"]) == ("alice", "a1", "graded")
-    assert (row["score"], row["max_score"], row["residual"], row["answers"]) == ("90", "90", "15", "")
+    assert (row["score"], row["max_score"], row["residual"], row["written"]) == ("90", "90", "15", "")
 
 
 def test_our_fault_is_no_zero() -> None:
@@ -39,7 +39,7 @@ def test_our_fault_is_no_zero() -> None:
 def test_stages_of_the_course_have_a_column_before_anybody_reached_them() -> None:
     """A class of rejected uploads still has every column."""
     text = gradebook_text([result("judy", status="rejected")], list(POINTS))
-    assert text.splitlines()[0].endswith(",".join(POINTS))
+    assert text.splitlines()[0].endswith(",".join([*POINTS, "note"]))
 
 
 @pytest.mark.parametrize("start", ["=", "+", "-", "@", "\t=", "\r+", " =", "\uff1d"])

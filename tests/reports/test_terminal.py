@@ -79,13 +79,6 @@ def test_means_are_over_graded_submissions_only() -> None:
     assert "of 9" in printed(small_class(), 80)
 
 
-def test_a_stage_that_nobody_grades_yet_is_named_and_has_no_column() -> None:
-    """It does not count, and does not look like a zero."""
-    lines = class_table([result("alice", stage("written", "not_graded"))], 80)
-    assert lines[-1].plain == "not graded yet: written"
-    assert not any("written" in line.plain for line in lines[:-1])
-
-
 def test_the_same_mistake_is_counted_once_for_all_who_made_it() -> None:
     """The most frequent reason stands first; one that spans stages is one line."""
     listed = troubles(small_class())
