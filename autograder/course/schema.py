@@ -48,6 +48,14 @@ def _is_stages(value: Any) -> bool:
     )
 
 
+def _is_families(value: Any) -> bool:
+    return (
+        isinstance(value, list)
+        and 0 < len(value) <= 100
+        and all(isinstance(name, str) and 0 < len(name) <= 200 for name in value)
+    )
+
+
 _POINTS = Setting("points", _number(0, 1000), "a number from 0 to 1000", float)
 KEYS: dict[str, dict[str, Setting]] = {
     "": {"title": Setting("title", lambda value: isinstance(value, str) and 0 < len(value) <= 200, "a short text")},
@@ -70,6 +78,7 @@ KEYS: dict[str, dict[str, Setting]] = {
         "output": Setting("output_mib", _whole(1, 1024), "whole MiB from 1 to 1024"),
     },
     "feedback": {"policy": Setting("feedback", _one_of("full", "hint", "score"), '"full", "hint" or "score"')},
+    "variants": {"families": Setting("families", _is_families, 'a list of families such as ["A", "B"]', tuple)},
     "confinement": {
         "minimum": Setting("min_confinement", _one_of("full", "seccomp", "none"), '"full", "seccomp" or "none"')
     },

@@ -47,6 +47,8 @@ class Course:
         What a student is shown of a failed check.
     min_confinement : {"full", "seccomp", "none"}
         The least confinement under which this course is graded.
+    families : tuple of str
+        Families that variants are drawn from; one that stands twice is drawn twice as often.
     """
 
     title: str = "1D SLAM"
@@ -61,6 +63,7 @@ class Course:
     output_mib: int = 16
     feedback: Feedback = "full"
     min_confinement: Level = "seccomp"
+    families: tuple[str, ...] = ("A",)
 
     @property
     def max_score(self) -> float:

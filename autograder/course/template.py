@@ -57,6 +57,15 @@ output = {_DEFAULT.output_mib}
 #   "score"  marks only
 policy = "{_DEFAULT.feedback}"
 
+[variants]
+# The families that personal variants are drawn from, for `autograder release`; one that stands twice is drawn twice
+# as often.
+#   "W"  one loop, equal variances        "B"  a loop that begins at pose 1
+#   "A"  one loop, unequal variances      "C"  two overlapping loops
+#   "D"  twelve poses, code only          "L"  landmarks
+#   "E"  the worked example, the same for everybody
+families = ["{'", "'.join(_DEFAULT.families)}"]
+
 [confinement]
 # The least confinement under which this course is graded; `autograder doctor` says what this machine gives.
 #   "full"     system call filter and Landlock
