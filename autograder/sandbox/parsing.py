@@ -11,6 +11,7 @@ from .magics import without_cell_magic, without_line_magics
 
 # A line that may begin a statement at the top level: no indent, no closing bracket, no continuation of a block.
 _BEGINS = re.compile(r"(?!(?:else|elif|except|finally)\b)[^\s#)\]}]")
+_TOO_DEEP = "this is nested too deeply to be read"
 _MOST_JOINED = 40  # parts tried together where one alone does not parse, as inside a long string
 
 
@@ -25,10 +26,7 @@ class Statement:
 
 
 def statements(text: str, notebook: bool) -> list[Statement]:
-    """Split the text of a cell into statements; what does not parse is one with a problem.
-
-    Raises MemoryError or RecursionError where the text is nested too deeply for the parser.
-    """
+    """Split the text of a cell into statements; what does not parse is one with a problem."""
     text = text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
     attempts = [text]
     if notebook:
@@ -50,6 +48,8 @@ def _parse(text: str) -> list[ast.stmt] | str:
             return f"{type(error).__name__}: {error.msg}"
         except ValueError as error:  # null bytes, lone surrogates
             return f"SyntaxError: {error}"
+        except (MemoryError, RecursionError) as error:
+            return f"{type(error).__name__}: {_TOO_DEEP}"
 
 
 def _first_line(node: ast.stmt) -> int:
@@ -70,10 +70,10 @@ def _recovered(text: str) -> list[Statement]:
         problem = ""
         for end in range(place + 1, min(place + _MOST_JOINED, len(bounds) - 1) + 1):
             body = _parse("\n".join(lines[begin : bounds[end]]))
-            if not isinstance(body, str):
+            problem = problem or (body if isinstance(body, str) else "")
+            if not isinstance(body, str) or body.endswith(_TOO_DEEP):  # more lines make it no flatter, only slower
                 break
-            problem = problem or body
-        else:
+        if isinstance(body, str):
             found.append(Statement(len(found), begin + 1, None, problem))
             place += 1
             continue

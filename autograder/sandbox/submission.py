@@ -55,11 +55,7 @@ class Submission:
             if stop is not None and (cell, -1) >= stop:
                 return
             self._report(cell, -1, 1)
-            try:
-                found = statements(text, self._source.kind == "notebook")
-            except (MemoryError, RecursionError) as error:
-                self._remark(cell, 1, "syntax", f"{type(error).__name__}: this is nested too deeply to be read")
-                continue
+            found = statements(text, self._source.kind == "notebook")
             filename = f"{STUDENT_MODULE}.py" if self._source.kind == "module" else f"<cell {cell + 1}>"
             linecache.cache[filename] = (len(text), None, text.splitlines(keepends=True), filename)
             for statement in found:

@@ -133,6 +133,14 @@ def test_text_that_is_no_python_is_survived(sandbox: Sandbox, text: str) -> None
         assert all(note.where.startswith("cell 1") and note.message.isprintable() for note in loaded.notes)
 
 
+@pytest.mark.parametrize("deep", ["-" * 200_000 + "1", "(" * 200_000 + ")" * 200_000, "x" + ".b" * 50_000])
+def test_a_statement_that_is_too_deep_costs_itself(load: Load, deep: str) -> None:
+    """In a module, too, what stands before it and after it counts."""
+    loaded = load(f"def before(x):\n    return x\n\ndef deep(x):\n    return {deep}\n\ndef after(x):\n    return x\n")
+    assert loaded.functions >= {"before", "after"}
+    assert [note.where for note in loaded.notes] in (["line 4"], ["line 5"])
+
+
 def test_line_ends_and_marks_do_not_matter(load: Load) -> None:
     """Carriage returns and a byte order mark are not part of the text."""
     assert brief(load("\ufeffdef f(x):\r\n    return x\r\n1/0\r\n")) == [("line 3", "error")]
