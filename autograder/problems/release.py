@@ -20,7 +20,7 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from autograder.errors import UsageError
-from autograder.problems.families import family as family_of
+from autograder.problems.drawing import checked_mix, draw_class
 from autograder.problems.hand_solution import hand_solution
 from autograder.problems.ledger import Ledger, read_ledger, write_ledger
 from autograder.problems.listing import key_columns, key_row
@@ -28,7 +28,7 @@ from autograder.problems.problem import Problem
 from autograder.problems.replacing import UNFINISHED, replace_file, replace_folder
 from autograder.problems.roster import Student
 from autograder.problems.secret import Secret
-from autograder.problems.variants import Variant, choose_family
+from autograder.problems.variants import Variant
 
 Render = Callable[[Problem], Mapping[str, str]]
 
@@ -87,10 +87,12 @@ def release(
     out: Path,
     *,
     render: Render,
+    render_key: Render | None = None,
     accept: Callable[[Variant], bool] | None = None,
     notes: Mapping[str, str] | None = None,
     force: bool = False,
     workers: int = 1,
+    on_draw: Callable[[int, int, str], None] | None = None,
     on_progress: Callable[[int, int, str], None] | None = None,
 ) -> Released:
     """Give every student of the roster a variant, a folder and a zip.
@@ -108,6 +110,8 @@ def release(
     render : callable
         From a problem to the files of a student's folder, text by name. With several workers it
         must be a function that another process can import.
+    render_key : callable, optional
+        From a problem to further files for staff, text by kind of file (".md"), in the same way.
     accept : callable, optional
         A further demand on a variant.
     notes : mapping, optional
@@ -116,30 +120,22 @@ def release(
         Go on although secret or term have changed, and render folders again that have changed.
     workers : int
         Processes that render and write.
-    on_progress : callable, optional
-        Called with (done, total, student id) after every student.
+    on_draw, on_progress : callable, optional
+        Called with (done, total, student id) after every draw, and after every student's files.
 
     Raises
     ------
     UsageError
         Where the folder belongs to another secret or term, or cannot be written.
     """
-    labels: Counter[str] = Counter()
-    for text, weight in mix.items():
-        labels[family_of(text).label] += weight
-    if not labels or min(labels.values()) < 0 or sum(labels.values()) < 1:
-        raise UsageError(f"The mix of families is {dict(mix)}; expected at least one family with a positive weight.")
+    labels = checked_mix(mix)
     try:
         record = json.dumps({"term": term, "secret_check": secret.check(term), "format": 1}, indent=2) + "\n"
         _check_record(out / RECORD, record, force)
         ledger = read_ledger(out / LEDGER) if (out / LEDGER).exists() else Ledger()
         tally: Counter[str] = Counter()
-        wanted = {
-            student.student_id: choose_family(secret, term, student.student_id, labels)
-            for student in students
-            if student.student_id not in ledger
-        }
-        ledger.extend(secret, term, wanted, accept=accept, tally=tally)
+        ids = [student.student_id for student in students]
+        draw_class(ledger, ids, secret, term, labels, accept=accept, tally=tally, on_draw=on_draw)
         _put(out / RECORD, record.encode())
         write_ledger(out / LEDGER, ledger)
         for name, text in (notes or {}).items():
@@ -148,7 +144,7 @@ def release(
         for leftover in (out / STUDENTS).glob(f"{UNFINISHED}*"):
             shutil.rmtree(leftover)
         present = [variant for student in students if (variant := ledger.get(student.student_id))]
-        tasks = [_Task(variant, out, render, force) for variant in present]
+        tasks = [_Task(variant, out, render, render_key, force) for variant in present]
         done: dict[str, list[str]] = {kind: [] for kind in ("new", "unchanged", "rewritten", "different")}
         for count, (variant, kind) in enumerate(zip(present, _write_all(tasks, workers), strict=True), 1):
             done[kind].append(variant.student_id)
@@ -183,6 +179,7 @@ class _Task:
     variant: Variant
     out: Path
     render: Render
+    render_key: Render | None
     force: bool
 
 
@@ -201,6 +198,9 @@ def _write(task: _Task) -> str:
     if kind != "different":
         _put(task.out / ZIPS / f"{name}.zip", _zipped(name, files), mode=0o644)
     _put(task.out / STAFF / "solutions" / f"{name}.md", hand_solution(task.variant).encode())
+    if task.render_key is not None:
+        for suffix, text in task.render_key(task.variant.problem).items():
+            _put(task.out / STAFF / "worked" / f"{name}{suffix}", text.encode())
     return kind
 
 
