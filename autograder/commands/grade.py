@@ -34,24 +34,59 @@ POLICIES = ("full", "hint", "score")
     "course_file",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Settings of the course (see: autograder init).",
+    help="Settings of the course; `autograder init` writes one to edit. [default: what it writes]",
 )
-@click.option("--workers", type=click.IntRange(1), metavar="N", help="Processes at a time. [default: all cores]")
 @click.option(
-    "--seed", type=click.IntRange(0), metavar="S", help="Which cases are drawn. [default: the course's, or 0]"
+    "--workers", type=click.IntRange(1), metavar="N", help="Submissions graded at a time. [default: one a core]"
 )
-@click.option("--examples", type=click.IntRange(1), metavar="N", help="Cases a stage. [default: the course's, or 200]")
-@click.option("--only", multiple=True, metavar="ID", help="Grade only this submission; may be given again.")
+@click.option(
+    "--seed",
+    type=click.IntRange(0),
+    metavar="S",
+    help="Which cases are drawn: the same seed gives the same marks. [default: the course's, or 0]",
+)
+@click.option(
+    "--examples", type=click.IntRange(1), metavar="N", help="Cases drawn a stage. [default: the course's, or 200]"
+)
+@click.option(
+    "--only",
+    multiple=True,
+    metavar="ID",
+    help="Grade only this submission, by its name in grades.csv; may be given again.",
+)
 @click.option("--fresh", is_flag=True, help="Grade everything again, whatever is stored in OUT.")
 @click.option(
     "--time-limit",
-    type=click.FloatRange(0, min_open=True),
+    type=click.FloatRange(0, 600, min_open=True),
     metavar="SECONDS",
-    help="CPU time a check may take. [default: the course's, or 2]",
+    help="Computing time of a check; a submission gets four times as much. [default: the course's, or 2]",
 )
-@click.option("--feedback", type=click.Choice(POLICIES), help="How much students are shown.")
-@click.option("--min-confinement", type=click.Choice(LEVELS), help="Refuse to grade below this level.")
-@click.option("--allow-unconfined", is_flag=True, help="Grade without confinement: only code that you trust.")
+@click.option(
+    "--memory",
+    type=click.IntRange(64, 65_536),
+    metavar="MIB",
+    help="Memory that a submission may take. [default: the course's, or 512]",
+)
+@click.option(
+    "--output-limit",
+    type=click.IntRange(1, 1024),
+    metavar="MIB",
+    help="What a submission may print; it is thrown away. [default: the course's, or 16]",
+)
+@click.option(
+    "--feedback",
+    type=click.Choice(POLICIES),
+    help="What students are shown: a failing case, its right value and a hint; the hint only; marks only. "
+    "[default: the course's, or full]",
+)
+@click.option(
+    "--min-confinement",
+    type=click.Choice(LEVELS),
+    help="Refuse to grade where `autograder doctor` finds less. [default: the course's, or seccomp]",
+)
+@click.option(
+    "--allow-unconfined", is_flag=True, help="Grade even where nothing can be locked: only code that you trust."
+)
 @click.option("--json", "as_json", is_flag=True, help="One result object a line to stdout, and no table.")
 def command(
     paths: Sequence[Path], out: Path, course_file: Path | None, only: Sequence[str], as_json: bool, **options: Any
@@ -67,6 +102,7 @@ def command(
     autograder grade alice.py bob.ipynb -o graded
     autograder grade uploads/ -o graded --course course.toml --seed 2026
     autograder grade uploads/ -o graded --only alice
+    autograder grade uploads/ -o graded --time-limit 5 --memory 1024
     autograder grade uploads/ -o graded --json | jq .score
 
     Exit code: 0 done, whatever the marks; 2 nothing could be read; 3 something could not be graded
@@ -109,6 +145,8 @@ def grade_and_report(
     examples: int | None = None,
     fresh: bool = False,
     time_limit: float | None = None,
+    memory: int | None = None,
+    output_limit: int | None = None,
     feedback: str | None = None,
     min_confinement: str | None = None,
     allow_unconfined: bool = False,
@@ -127,6 +165,7 @@ def grade_and_report(
     from autograder.engine.grade import Settings, grade
     from autograder.reports.folder import write_reports
 
+    course = replace(course, memory_mib=memory or course.memory_mib, output_mib=output_limit or course.output_mib)
     given: dict[str, Any] = {
         "seed": seed if seed is not None else (course.seed or 0),
         "examples": examples or course.examples,

@@ -13,6 +13,7 @@ import pytest
 
 from autograder import cli
 from autograder.commands._progress import Lines, line, progress
+from autograder.course import Course
 from autograder.engine import grade as engine
 from autograder.errors import RejectedUpload, SandboxError, UsageError
 from autograder.verdicts import encode
@@ -113,6 +114,24 @@ def test_options_reach_the_engine(run: Callable[..., Ended], graded: Any, upload
         "seccomp",
         False,
     )
+    assert (graded["course"].memory_mib, graded["course"].output_mib) == (512, 16)
+    assert run("grade", upload, "-o", tmp_path / "out", "--memory", 256, "--output-limit", 2)[0] == 0
+    assert (graded["course"].memory_mib, graded["course"].output_mib) == (256, 2)
+
+
+def test_the_help_shows_the_defaults_that_hold(run: Callable[..., Ended]) -> None:
+    """What the help calls a default is the default of a course."""
+    shown = " ".join(run("grade", "--help")[1].split())
+    course = Course()
+    for option, value in {
+        "--time-limit SECONDS": f"{course.time_limit:g}",
+        "--memory MIB": course.memory_mib,
+        "--output-limit MIB": course.output_mib,
+        "--examples N": course.examples,
+        "--feedback": course.feedback,
+        "--min-confinement": course.min_confinement,
+    }.items():
+        assert shown.split(option)[1].split("[default: ")[1].startswith(f"the course's, or {value}]")
 
 
 def test_only_grades_one_and_keeps_the_rest(
