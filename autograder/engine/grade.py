@@ -204,14 +204,15 @@ class _Grading:
         )
 
     def _flags(self, submission: Submission, answer: Graded) -> tuple[str, ...]:
-        """Say, to staff only, where a submission carries the numbers of somebody else."""
+        """Say, to staff only, what is odd about whose it is, and where it carries the numbers of somebody else."""
         assigned = self.assigned[submission.id]
+        odd = (assigned.flag,) if assigned.flag else ()
         if assigned.others is None or submission.source is None:
-            return ()
+            return odd
         carried = assigned.others.in_text(assigned.student_id, "\n".join(submission.source.cells))
         if answer.iterates is not None:
             carried = [*assigned.others.in_answers(assigned.student_id, answer.iterates), *carried]
-        return tuple(each.text() for each in carried)
+        return (*odd, *(each.text() for each in carried))
 
     def _rejected(self, submission: Submission) -> Result:
         return self._base(submission, status="rejected", message=submission.rejection, score=0.0, seconds=0.0)
@@ -261,6 +262,8 @@ class _Grading:
                 submission.rejection,
                 self.assigned[submission.id].variant.identifier,
                 self.assigned[submission.id].student_id or "",
+                self.assigned[submission.id].note,
+                self.assigned[submission.id].flag,
                 *submission.markdown,
             ]
         )

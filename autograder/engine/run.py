@@ -49,13 +49,16 @@ class Assigned:
     others : Numbers or None
         The numbers of the whole class, to recognise somebody else's.
     note : str
-        How the submission was matched; "" where all is plain.
+        How the submission was matched; the student may read it. "" where all is plain.
+    flag : str
+        What only staff should know, such as a second submission or somebody else's name.
     """
 
     variant: Variant
     student_id: str | None = None
     others: Numbers | None = None
     note: str = ""
+    flag: str = ""
 
     @property
     def sheet(self) -> tuple[str, list[Any]]:
