@@ -196,3 +196,39 @@ def test_no_text_makes_the_loader_fail_in_another_way(text: str) -> None:
         path.write_text(text, encoding="utf-8")
         with contextlib.suppress(UsageError):
             assert set(load_course(path).stages) <= set(STAGES)
+
+
+def test_the_due_date_and_extensions_are_moments(tmp_path: Path) -> None:
+    """A date, a time and an offset; names of the course's own in [extensions]."""
+    course = load(
+        tmp_path,
+        "[late]\ndue = 2026-11-20T23:59:00+01:00\nper_day = 10\n"
+        '[extensions]\nada = 2026-11-27T23:59:00+01:00\n"Zoë 7" = 2026-11-28T23:59:00Z\n',
+    )
+    assert course.due is not None
+    assert course.due.isoformat() == "2026-11-20T23:59:00+01:00"
+    assert list(course.extensions) == ["ada", "Zoë 7"]
+    assert course.late_per_day == 10
+
+
+@pytest.mark.parametrize("value", ["2026-11-20", "2026-11-20T23:59:00", '"2026-11-20T23:59:00Z"', "7", "23:59:00"])
+@pytest.mark.parametrize(("section", "key"), [("late", "due"), ("extensions", "ada")])
+def test_a_moment_without_an_offset_is_refused(tmp_path: Path, section: str, key: str, value: str) -> None:
+    """Midnight of which country would be anybody's guess."""
+    said = complaint(tmp_path, f"[{section}]\n{key} = {value}\n")
+    assert said.startswith(f"course.toml, line 2: [{section}] {key} is ")
+    assert "2026-11-20T23:59:00+01:00" in said
+
+
+def test_points_of_questions_add_up_to_their_stage(tmp_path: Path) -> None:
+    """One may be left out: it gets the rest."""
+    assert load(tmp_path, "[written]\nquestion_2 = 1\n").question_points == {"2": 1.0, "3": 4.0}
+    assert load(tmp_path, "[written]\nquestion_2 = 5\n").question_points == {"2": 5.0, "3": 0.0}
+    for text in ("question_2 = 6", "question_2 = 2\nquestion_3 = 2"):
+        assert "do not add up to the 5 points of written" in complaint(tmp_path, f"[written]\n{text}\n")
+
+
+def test_what_only_reports_apply_changes_no_verdict() -> None:
+    """A due date or a title is no reason to run a class again; points are."""
+    assert Course(title="other", late_per_day=5).judging() == Course().judging()
+    assert Course(follow_through=0.4).judging() != Course().judging()

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from autograder.course.lines import line_of
-from autograder.course.schema import KEYS, suggestion
-from autograder.course.settings import DEFAULT_POINTS, Course
+from autograder.course.schema import KEYS, NAMED, Setting, suggestion
+from autograder.course.settings import DEFAULT_POINTS, QUESTION_POINTS, Course
 from autograder.errors import UsageError
 
 MAX_FILE = 64 << 10  # bytes
@@ -32,18 +32,42 @@ def load_course(path: Path | None) -> Course:
         raise UsageError(f"{path}{_toml_reason(error)}") from None
     values: dict[str, Any] = {}
     points = dict(DEFAULT_POINTS)
+    questions: dict[str, float] = {}
+    named: dict[str, Any] = {}
     for section, key, value in _settings(data, path, text):
-        setting = KEYS[section][key]
+        setting = _setting(section, key)
         if not setting.accepts(value):
             raise _complaint(path, text, section, key, f"is {_shown(value)}, expected {setting.expected}")
         if section == "points":
             points[key] = float(value)
+        elif section in NAMED:
+            named.setdefault(setting.field, {})[key] = setting.convert(value)
+        elif setting.field == "question_points":
+            questions[key.removeprefix("question_")] = setting.convert(value)
         else:
             values[setting.field] = setting.convert(value)
-    course = Course(**values, points=points)
+    if questions:
+        values["question_points"] = _shares(path, questions, points["written"])
+    course = Course(**values, **named, points=points)
     if course.max_score <= 0:
         raise UsageError(f"{path}: the stages in use have no points; give at least one of them points in [points].")
     return course
+
+
+def _setting(section: str, key: str) -> Setting:
+    return NAMED[section] if section in NAMED else KEYS[section][key]
+
+
+def _shares(path: Path, questions: dict[str, float], whole: float) -> dict[str, float]:
+    """Return the points of each question; those that are named must leave something sensible for the rest."""
+    rest = [number for number in QUESTION_POINTS if number not in questions]
+    left = whole - sum(questions.values())
+    if left < -1e-9 or (not rest and left > 1e-9):
+        told = " and ".join(f"question_{number} = {value:g}" for number, value in questions.items())
+        raise UsageError(f"{path}: [written] {told} do not add up to the {whole:g} points of written in [points].")
+    unit = sum(QUESTION_POINTS[number] for number in rest)
+    filled = {**questions, **{number: left * QUESTION_POINTS[number] / unit for number in rest}}
+    return {number: filled[number] for number in QUESTION_POINTS}
 
 
 def _settings(data: dict[str, Any], path: Path, text: str) -> list[tuple[str, str, Any]]:
@@ -58,7 +82,7 @@ def _settings(data: dict[str, Any], path: Path, text: str) -> list[tuple[str, st
             raise _complaint(path, text, "", name, f"is {_shown(value)}, expected a section that begins with [{name}]")
         else:
             for key in value:
-                if key not in KEYS[name]:
+                if key not in KEYS[name] and name not in NAMED:
                     raise _complaint(path, text, name, key, f"is not known{suggestion(key, name)}")
             found += [(name, key, inner) for key, inner in value.items()]
     return found

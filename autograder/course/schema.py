@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import datetime
 from difflib import get_close_matches
 from typing import Any
 
-from autograder.course.settings import DEFAULT_POINTS, STAGES
+from autograder.course.settings import DEFAULT_POINTS, QUESTION_POINTS, STAGES
 
 Check = Callable[[Any], bool]
 
@@ -56,7 +57,17 @@ def _is_families(value: Any) -> bool:
     )
 
 
+def _is_moment(value: Any) -> bool:
+    return isinstance(value, datetime) and value.tzinfo is not None
+
+
+_POLICY = _one_of("full", "hint", "score")
+_POLICIES = '"full", "hint" or "score"'
+_MOMENT = "a date, a time and an offset from UTC without quotes, such as 2026-11-20T23:59:00+01:00"
+# Sections whose keys are names that the course chooses: what each value is.
+NAMED: dict[str, Setting] = {"extensions": Setting("extensions", _is_moment, _MOMENT)}
 _POINTS = Setting("points", _number(0, 1000), "a number from 0 to 1000", float)
+_QUESTION = Setting("question_points", _number(0, 1000), "a number from 0 to 1000", float)
 KEYS: dict[str, dict[str, Setting]] = {
     "": {"title": Setting("title", lambda value: isinstance(value, str) and 0 < len(value) <= 200, "a short text")},
     "points": {**dict.fromkeys(DEFAULT_POINTS, _POINTS)},
@@ -77,7 +88,21 @@ KEYS: dict[str, dict[str, Setting]] = {
         "memory": Setting("memory_mib", _whole(64, 65_536), "whole MiB from 64 to 65536"),
         "output": Setting("output_mib", _whole(1, 1024), "whole MiB from 1 to 1024"),
     },
-    "feedback": {"policy": Setting("feedback", _one_of("full", "hint", "score"), '"full", "hint" or "score"')},
+    "feedback": {
+        "policy": Setting("feedback", _POLICY, _POLICIES),
+        "before_due": Setting("before_due", _POLICY, _POLICIES),
+    },
+    "late": {
+        "due": Setting("due", _is_moment, _MOMENT),
+        "grace_minutes": Setting("grace_minutes", _number(0, 10_000), "minutes from 0 to 10000", float),
+        "per_day": Setting("late_per_day", _number(0, 100), "per cent from 0 to 100", float),
+        "days": Setting("late_days", _whole(0, 365), "whole days from 0 to 365"),
+    },
+    "extensions": {},
+    "written": {
+        **{f"question_{number}": _QUESTION for number in QUESTION_POINTS},
+        "guide": Setting("guide", lambda value: isinstance(value, str) and len(value) <= 20_000, "a text in markdown"),
+    },
     "variants": {"families": Setting("families", _is_families, 'a list of families such as ["A", "B"]', tuple)},
     "confinement": {
         "minimum": Setting("min_confinement", _one_of("full", "seccomp", "none"), '"full", "seccomp" or "none"')

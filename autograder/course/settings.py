@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from datetime import datetime
 from types import MappingProxyType
-from typing import Literal
+from typing import Any, Literal
 
 from autograder.stages import catalogue
 
 DEFAULT_POINTS: Mapping[str, float] = MappingProxyType(catalogue.points())
 STAGES = tuple(DEFAULT_POINTS)
 BONUS = catalogue.bonus()
+
+# The written answers share the points of their stage in these proportions.
+QUESTION_POINTS: Mapping[str, float] = MappingProxyType({"2": 2.0, "3": 3.0})
+# Settings that reports apply to stored verdicts: changing them runs nobody's code again.
+AFTERWARDS = frozenset(
+    {
+        "title", "feedback", "before_due", "due", "grace_minutes", "late_per_day", "late_days", "extensions",
+        "question_points", "guide",
+    }
+)  # fmt: skip
 
 Feedback = Literal["full", "hint", "score"]
 Level = Literal["full", "seccomp", "none"]
@@ -45,6 +56,22 @@ class Course:
         What a submission may print [MiB].
     feedback : {"full", "hint", "score"}
         What a student is shown of a failed check.
+    before_due : {"full", "hint", "score"} or None
+        What a student is shown until the last due date has passed; None: no difference.
+    due : datetime or None
+        When the homework is due; None: nothing is late.
+    grace_minutes : float
+        Minutes after the due date that cost nothing.
+    late_per_day : float
+        Per cent of the maximum that each begun day costs.
+    late_days : int or None
+        After so many days a submission scores 0; None: never.
+    extensions : mapping of str to datetime
+        Other due dates, by name of the submission or by student id.
+    question_points : mapping of str to float
+        Points of the written answers, by question; they share those of the stage `written`.
+    guide : str
+        Marking guide of the written answers, as markdown; "" for that of the worked solution.
     min_confinement : {"full", "seccomp", "none"}
         The least confinement under which this course is graded.
     families : tuple of str
@@ -62,6 +89,14 @@ class Course:
     memory_mib: int = 512
     output_mib: int = 16
     feedback: Feedback = "full"
+    before_due: Feedback | None = None
+    due: datetime | None = None
+    grace_minutes: float = 0.0
+    late_per_day: float = 0.0
+    late_days: int | None = None
+    extensions: Mapping[str, datetime] = field(default_factory=dict)
+    question_points: Mapping[str, float] = field(default_factory=lambda: dict(QUESTION_POINTS))
+    guide: str = ""
     min_confinement: Level = "seccomp"
     families: tuple[str, ...] = ("A",)
 
@@ -69,3 +104,7 @@ class Course:
     def max_score(self) -> float:
         """The points of all stages in use, without bonus."""
         return float(sum(self.points[stage] for stage in self.stages if stage not in BONUS))
+
+    def judging(self) -> dict[str, Any]:
+        """Return the settings that a verdict may depend on, as plain data."""
+        return {name: value for name, value in asdict(self).items() if name not in AFTERWARDS}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from autograder.course.settings import BONUS, DEFAULT_POINTS, STAGES, Course
+from autograder.course.settings import BONUS, DEFAULT_POINTS, QUESTION_POINTS, STAGES, Course
 from autograder.errors import UsageError
 
 _DEFAULT = Course()
@@ -15,7 +15,7 @@ def _lines(points: dict[str, float], comment: str = "") -> str:
     return "\n".join(f"{comment}{name:<{width}} = {value:g}" for name, value in points.items())
 
 
-COURSE_TEMPLATE = f"""\
+COURSE_TEMPLATE = f'''\
 # Settings of this course. Every command takes this file with --course; what is left out keeps its default.
 # The values below are the defaults. Numbers are plain numbers, texts stand in quotes.
 
@@ -56,6 +56,30 @@ output = {_DEFAULT.output_mib}
 #   "hint"   the hint only
 #   "score"  marks only
 policy = "{_DEFAULT.feedback}"
+# Until the last due date has passed, extensions and late days included, students may be shown less.
+# before_due = "hint"
+
+[late]
+# When the homework is due; without this line nothing is late. The time of a submission is what the export of the
+# learning platform says (Gradescope, nbgrader); where it says nothing, no penalty is taken.
+# due = 2026-11-20T23:59:00+01:00
+# Minutes after the due date that cost nothing.
+grace_minutes = {_DEFAULT.grace_minutes:g}
+# Per cent of the maximum that each begun day costs.
+per_day = {_DEFAULT.late_per_day:g}
+# After so many days a submission scores 0; without this line it is taken however late.
+# days = 3
+
+[extensions]
+# Other due dates, by name of the submission or by student id; a name with blanks or accents stands in quotes.
+# ada_lindqvist = 2026-11-27T23:59:00+01:00
+
+[written]
+# Points of the written answers; together they are those of written in [points]. Without these lines they share
+# them in the proportion {" : ".join(f"{value:g}" for value in QUESTION_POINTS.values())}.
+{chr(10).join(f"# question_{number} = {value:g}" for number, value in QUESTION_POINTS.items())}
+# Marking guide, as markdown; without this line it is that of the worked solution.
+# guide = """Question 2, 1 point: ..."""
 
 [variants]
 # The families that personal variants are drawn from, for `autograder release`; one that stands twice is drawn twice
@@ -72,7 +96,7 @@ families = ["{'", "'.join(_DEFAULT.families)}"]
 #   "seccomp"  system call filter
 #   "none"     time-outs only; grade only code that you trust
 minimum = "{_DEFAULT.min_confinement}"
-"""
+'''
 
 
 def write_course(path: Path) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
 from pathlib import Path
 
 import msgspec
@@ -224,6 +223,8 @@ class _Grading:
                 "student_id": self.assigned[submission.id].student_id or submission.student_id,
                 "variant": self.assigned[submission.id].variant.identifier,
                 "max_score": self.max_score,
+                "submitted": submission.submitted,
+                "late": submission.late,
                 "confinement": self.level,
                 "seed": self.settings.seed,
                 "grader_version": autograder.__version__,
@@ -249,7 +250,7 @@ class _Grading:
 
     def _fingerprint(self, submission: Submission) -> str:
         """Identify the work: the exam, the rules, the grader and the upload."""
-        rules = {"points": self.points, "course": asdict(self.course), "time_limit": self.settings.time_limit}
+        rules = {"points": self.points, "course": self.course.judging(), "time_limit": self.settings.time_limit}
         return fingerprint(
             [
                 code_digest(),
@@ -264,6 +265,7 @@ class _Grading:
                 self.assigned[submission.id].student_id or "",
                 self.assigned[submission.id].note,
                 self.assigned[submission.id].flag,
+                f"{submission.submitted} {submission.late}",
                 *submission.markdown,
             ]
         )
