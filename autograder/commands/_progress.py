@@ -6,30 +6,66 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TextIO
-
-if TYPE_CHECKING:
-    from autograder.engine.grade import Progress
+from typing import NamedTuple, Protocol, TextIO
 
 _SECONDS_BETWEEN_LINES = 5.0
 
 
+class Progress(Protocol):
+    """How far something is: `done` of `total`, `reused` of them from before; the last one's name."""
+
+    @property
+    def done(self) -> int:
+        """How many are done."""
+
+    @property
+    def total(self) -> int:
+        """How many there are."""
+
+    @property
+    def reused(self) -> int:
+        """How many of those done cost nothing."""
+
+    @property
+    def submission(self) -> str:
+        """The one that was done last."""
+
+
+class Step(NamedTuple):
+    """Progress of what is no grading."""
+
+    done: int
+    total: int
+    submission: str
+    reused: int = 0
+
+
 @contextmanager
-def progress(file: TextIO | None = None) -> Iterator[Callable[[Progress], None]]:
-    """Give the function that the engine calls after each submission."""
+def progress(
+    file: TextIO | None = None, doing: str = "grading", did: str = "graded"
+) -> Iterator[Callable[[Progress], None]]:
+    """Give the function that is called after each submission.
+
+    Parameters
+    ----------
+    file : TextIO, optional
+        Where it is shown; stderr if not given.
+    doing, did : str
+        What is done, for a bar and for a line.
+    """
     file = sys.stderr if file is None else file
     if file.isatty():
-        with _bar(file) as report:
+        with _bar(file, doing) as report:
             yield report
     else:
-        yield Lines(file)
+        yield Lines(file, did=did)
 
 
 class Lines:
     """Plain lines: the first submission, then one every few seconds, then the last."""
 
-    def __init__(self, file: TextIO, clock: Callable[[], float] = time.monotonic) -> None:
-        self.file, self.clock = file, clock
+    def __init__(self, file: TextIO, clock: Callable[[], float] = time.monotonic, did: str = "graded") -> None:
+        self.file, self.clock, self.did = file, clock, did
         self.start = self.last = clock()
 
     def __call__(self, at: Progress) -> None:
@@ -38,12 +74,12 @@ class Lines:
         if at.done < at.total and now - self.last < _SECONDS_BETWEEN_LINES:
             return
         self.last = now
-        print(line(at, now - self.start), file=self.file, flush=True)
+        print(line(at, now - self.start, self.did), file=self.file, flush=True)
 
 
-def line(at: Progress, seconds: float) -> str:
+def line(at: Progress, seconds: float, did: str = "graded") -> str:
     """Say how far grading is: count, rate, time left."""
-    text = f"graded {at.done} of {at.total}"
+    text = f"{did} {at.done} of {at.total}"
     if at.reused:
         text += f", {at.reused} unchanged"
     run = at.done - at.reused
@@ -56,13 +92,13 @@ def line(at: Progress, seconds: float) -> str:
 
 
 @contextmanager
-def _bar(file: TextIO) -> Iterator[Callable[[Progress], None]]:
+def _bar(file: TextIO, doing: str) -> Iterator[Callable[[Progress], None]]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
     from rich.progress import Progress as Bar
 
     columns = (
-        TextColumn("grading"),
+        TextColumn(doing),
         BarColumn(),
         MofNCompleteColumn(),
         TextColumn("{task.fields[rate]}"),
@@ -71,7 +107,7 @@ def _bar(file: TextIO) -> Iterator[Callable[[Progress], None]]:
     )
     start = time.monotonic()
     with Bar(*columns, console=Console(file=file), transient=True) as bar:
-        task = bar.add_task("grading", total=None, rate="", submission="")
+        task = bar.add_task(doing, total=None, rate="", submission="")
 
         def report(at: Progress) -> None:
             from autograder.reports.wording import visible
