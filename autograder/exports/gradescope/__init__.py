@@ -1,0 +1,1 @@
+"""Gradescope: an autograder.zip that grades with this program, and the results.json that it writes."""
