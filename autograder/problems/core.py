@@ -157,7 +157,7 @@ VARIANCES: tuple[Case, ...] = (
     (_state(0, 1, 2), _SOFT),
     (_state(1, 0, 3), _FIRM),
     (_state(0, 1, 2, 3), _DECADES),
-    (_state(4, -1, 2, 0), _DECADES),
+    (_state(4.1, -1.3, 2.2, 0.7), _DECADES),
 )
 REAL_VALUED: tuple[Case, ...] = (
     _real(3, [(0, 1), (1, 2), (0, 2)], [0], 0.0),

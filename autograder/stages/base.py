@@ -59,6 +59,9 @@ class Slip:
         Identifiers of the same mistake in the literature that the course keeps.
     minimum_poses : int
         Smallest number of poses on which the mistake can be seen.
+    by_chance : bool
+        Whether its numbers are rounding noise, so that it is caught always and named only where
+        the student's arithmetic is the same to the last bit.
     """
 
     identifier: str
@@ -67,6 +70,7 @@ class Slip:
     function: Callable[..., Any]
     catalogue: str = ""
     minimum_poses: int = 2
+    by_chance: bool = False
 
 
 @dataclass(frozen=True)

@@ -14,14 +14,14 @@ import pytest
 
 import assignment.posegraph
 from assignment.posegraph import PoseGraph
+from autograder.audit.expectation import KINDS, Expected, expected
 from autograder.stages.slips.submission import FUNCTIONS
 from autograder.verdicts import StageStatus
 from reference_solution import slam1d
-from tests.specimens.first_line import Expected, code, executed, expected, submissions
+from tests.specimens.first_line import code, executed, submissions
 from tests.stages import graph_pool
 
 STAGES = (*FUNCTIONS, "second_step")
-REMARKS = {"row_order", "row_sign", "columns", "rows", "lists", "np_matrix", "integers", "changes_input"}
 STYLES = {*range(1, 26), *range(28, 32), *range(33, 39), 40, 41, 43}  # of the catalogue; the others are not right
 ALL = submissions("correct", "equivalent", "wrong", "disputed")
 CASES = graph_pool.pool()
@@ -69,7 +69,7 @@ def test_the_first_line_states_a_verdict(path: Path) -> None:
     """The first line names known stages, statuses, slips and remarks."""
     found = verdict(path)
     assert found.others in get_args(StageStatus)
-    assert set(found.remarks) <= REMARKS
+    assert set(found.remarks) <= KINDS
     for stage, (status, slip, _) in found.stages.items():
         assert stage in STAGES
         assert status in get_args(StageStatus)

@@ -1,4 +1,4 @@
-# expect: others=passed remark=np_matrix; style 31: np.matrix throughout, vectors as columns.
+# expect: others=passed remark=np_matrix remark=columns; style 31: np.matrix throughout, vectors as columns.
 import numpy as np
 
 

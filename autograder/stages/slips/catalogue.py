@@ -38,7 +38,9 @@ class Catalogue:
         """All slips so far."""
         return tuple(self._entries)
 
-    def __call__(self, catalogue: str = "", *, minimum_poses: int = 2) -> Callable[[Function], Function]:
+    def __call__(
+        self, catalogue: str = "", *, minimum_poses: int = 2, by_chance: bool = False
+    ) -> Callable[[Function], Function]:
         """Return a decorator that takes a function up and leaves it as it is.
 
         Parameters
@@ -48,6 +50,8 @@ class Catalogue:
             turned out to be the same mistake.
         minimum_poses : int
             Smallest number of poses (columns of J in `normal_equations`) on which it can be seen.
+        by_chance : bool
+            Whether its numbers are rounding noise.
         """
 
         def take_up(function: Function) -> Function:
@@ -60,6 +64,7 @@ class Catalogue:
                     function=function,
                     catalogue=catalogue,
                     minimum_poses=minimum_poses,
+                    by_chance=by_chance,
                 )
             )
             return function

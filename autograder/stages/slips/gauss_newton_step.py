@@ -62,7 +62,7 @@ def prior_left_out_shortest_step(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return step
 
 
-@slip("S18, H17")  # what comes out is rounding noise: it is named where the student's arithmetic is the same
+@slip("S18, H17", by_chance=True)
 def prior_left_out_singular(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The prior is left out, and a singular H is solved all the same.
 

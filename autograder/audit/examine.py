@@ -1,0 +1,75 @@
+"""Puts cases through the engine: the worker processes of a real run, without its store and its reports."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import msgspec
+
+from autograder.course import Course
+from autograder.engine.corpus import Corpus
+from autograder.engine.local import Answer, Pool, default_workers
+from autograder.engine.worker import Grade, Graded, Orders, Trouble
+from autograder.errors import SandboxError
+from autograder.sandbox.frames import Source
+from autograder.stages.base import Stage
+from autograder.verdicts import StageVerdict
+
+Done = Callable[[int, int, str], None]
+"""Told after every case how many are done, of how many, and which it was."""
+
+
+@dataclass(frozen=True)
+class Examined:
+    """What the engine says of every source, in order, and the confinement that it gave."""
+
+    verdicts: list[tuple[StageVerdict, ...]]
+    confinement: str
+
+
+def examine(
+    sources: Sequence[Source],
+    stages: Sequence[Stage],
+    corpus: Corpus,
+    course: Course,
+    on_done: Done = lambda *_: None,
+    workers: int | None = None,
+) -> Examined:
+    """Grade sources as a run does, on all cores, each in its locked child.
+
+    Raises
+    ------
+    SandboxError
+        Where this machine cannot confine, or the grader failed on a source.
+    """
+    orders = Orders(
+        corpus=corpus.data,
+        stages=tuple(stage.name for stage in stages),
+        points={stage.name: course.points[stage.name] for stage in stages},
+        time_limit=course.time_limit,
+        memory_mib=course.memory_mib,
+        output_mib=course.output_mib,
+        allow_unconfined=course.min_confinement == "none",
+        follow_through=course.follow_through,
+    )
+    found: dict[int, tuple[StageVerdict, ...]] = {}
+    late: list[int] = []
+
+    def keep(index: int, answer: Answer) -> None:
+        if not isinstance(answer, Graded):
+            words = answer.message if isinstance(answer, Trouble) else "the grader answered out of turn"
+            raise SandboxError(f"{sources[index].name} could not be judged: {words}")
+        if answer.ran_out and index not in late:
+            late.append(index)
+            return
+        found[index] = answer.stages
+        on_done(len(found), len(sources), sources[index].name)
+
+    with Pool(msgspec.msgpack.encode(orders), workers or default_workers()) as pool:
+        assert pool.confinement is not None  # entering the pool waits for it
+        level = pool.confinement.level
+        pool.run([(index, Grade(source)) for index, source in enumerate(sources)], keep)
+        for index in sorted(late):  # what ran out of time is run once more, alone on the machine
+            pool.run([(index, Grade(sources[index]))], keep)
+    return Examined([found[index] for index in range(len(sources))], level)
