@@ -8,9 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from autograder.commands._class import secret_options
+
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from autograder.course import Course
     from autograder.engine.grade import Run
+    from autograder.engine.run import Assigned
     from autograder.intake.submission import Submission
     from autograder.verdicts import Result
 
@@ -43,8 +48,23 @@ POLICIES = ("full", "hint", "score")
     "--seed",
     type=click.IntRange(0),
     metavar="S",
-    help="Which cases are drawn: the same seed gives the same marks. [default: the course's, or 0]",
+    help="Which cases are drawn: the same seed gives the same marks. "
+    "[default: the course's, else derived from secret and term, else 0]",
 )
+@click.option(
+    "--roster",
+    type=click.Path(path_type=Path),
+    metavar="CSV",
+    help="The class: says whose each submission is, and who has handed in nothing.",
+)
+@click.option(
+    "--ledger",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="variants.csv of the release: the numbers that answers are judged on. "
+    "[default: drawn again from roster, term and secret]",
+)
+@secret_options(required=False)
 @click.option(
     "--examples", type=click.IntRange(1), metavar="N", help="Cases drawn a stage. [default: the course's, or 200]"
 )
@@ -89,7 +109,17 @@ POLICIES = ("full", "hint", "score")
 )
 @click.option("--json", "as_json", is_flag=True, help="One result object a line to stdout, and no table.")
 def command(
-    paths: Sequence[Path], out: Path, course_file: Path | None, only: Sequence[str], as_json: bool, **options: Any
+    paths: Sequence[Path],
+    out: Path,
+    course_file: Path | None,
+    roster: Path | None,
+    ledger: Path | None,
+    term: str | None,
+    secret_file: Path | None,
+    families: Sequence[str],
+    only: Sequence[str],
+    as_json: bool,
+    **options: Any,
 ) -> int:
     """Grade files, folders of files, or both.
 
@@ -102,20 +132,32 @@ def command(
     autograder grade alice.py bob.ipynb -o graded
     autograder grade uploads/ -o graded --course course.toml --seed 2026
     autograder grade uploads/ -o graded --only alice
+    autograder grade uploads/ -o graded --roster class.csv --ledger release/staff/variants.csv
+    autograder grade uploads/ -o graded --roster class.csv --term 2026S --secret-file secret.txt
     autograder grade uploads/ -o graded --time-limit 5 --memory 1024
     autograder grade uploads/ -o graded --json | jq .score
 
     Exit code: 0 done, whatever the marks; 2 nothing could be read; 3 something could not be graded
     through no fault of the student; 130 interrupted (results so far are kept).
     """
+    from autograder.commands._class import secret_of
+    from autograder.commands._people import assign, people_of, report_missing
     from autograder.course import load_course
     from autograder.intake.submission import collect
 
     course = load_course(course_file)
-    submissions = _chosen(collect(list(paths)), only)
+    secret = secret_of(term, secret_file)
+    everything = collect(list(paths))
+    submissions = _chosen(everything, only)
+    people = people_of(roster, ledger, secret, term, families, course)
+    assigned = None if people is None else assign(everything, people)
+    if secret is not None and term is not None and course.seed is None and options["seed"] is None:
+        options["seed"] = secret.seed(term)
     make_folder(out)
-    run = grade_and_report(submissions, course, out, merge=bool(only), **options)
+    run = grade_and_report(submissions, course, out, merge=bool(only), assigned=assigned, **options)
     print_results(run.results, out, as_json)
+    if people is not None and assigned is not None:
+        report_missing(people, assigned, out)
     return exit_code(run)
 
 
@@ -151,10 +193,12 @@ def grade_and_report(
     min_confinement: str | None = None,
     allow_unconfined: bool = False,
     merge: bool = False,
+    assigned: Mapping[str, Assigned] | None = None,
 ) -> Run:
     """Grade with the course's settings but for those given, and write the reports into `out`.
 
-    With `merge` the reports also hold the results that were in `out` before.
+    With `merge` the reports also hold the results that were in `out` before; `assigned` says whose
+    each submission is.
     """
     from dataclasses import replace
 
@@ -175,7 +219,7 @@ def grade_and_report(
     }
     settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, **given)
     with progress() as report:
-        run = grade(submissions, course, settings, out, report)
+        run = grade(submissions, course, settings, out, report, assigned)
     if merge:
         run = replace(run, results=stored_results(out))
     write_reports(

@@ -35,8 +35,10 @@ def graded(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     """Put a class that was made by hand in the place of the engine; see what the engine is asked for."""
     asked: dict[str, Any] = {"results": [result("alice")], "interrupted": False, "raises": None}
 
-    def grade(submissions: Any, course: Any, settings: Any, out: Path, on_progress: Any) -> engine.Run:
-        asked.update(submissions=submissions, course=course, settings=settings)
+    def grade(
+        submissions: Any, course: Any, settings: Any, out: Path, on_progress: Any, assigned: Any = None
+    ) -> engine.Run:
+        asked.update(submissions=submissions, course=course, settings=settings, assigned=assigned)
         if asked["raises"]:
             raise asked["raises"]
         for number, one in enumerate(asked["results"], 1):
