@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 from collections.abc import Sequence
+from dataclasses import replace
 from types import TracebackType
 
 from autograder.errors import SandboxError
@@ -53,6 +54,11 @@ class Session:
         if self._loaded is None:
             self._start()
         return self._loaded or Loaded(notes=tuple(note for _, note in self._skip.values()))
+
+    @property
+    def left(self) -> Budget:
+        """What the submission may still use, as it stands now."""
+        return replace(self._budget)
 
     def run(self, batch: int) -> Outputs | Failure:
         """Make the calls of a batch of the inputs."""
