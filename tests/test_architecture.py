@@ -28,8 +28,10 @@ course             -> stages, errors
 diagnosis          -> posegraph, stages, problems, verdicts
 render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, errors
-reports            -> verdicts, render.figure
+marking            -> course, verdicts, writing, errors
+reports            -> verdicts, marking, render.figure, errors
 exports            -> render, stages, problems, posegraph, reports, verdicts, writing, errors
+desk               -> reports, marking, course, verdicts, errors
 audit              -> errors, verdicts, course, assignment, reference_solution, sandbox.frames, intake, engine,
                       stages, specimens
 commands           -> everything above
@@ -205,7 +207,7 @@ def test_a_broken_arrow_is_seen(tmp_path: Path, room: str, text: str) -> None:
         ("assignment.posegraph", "import autograder.errors", "posegraph may import nothing of ours"),
         (FORK_SERVER, "from autograder.errors import SandboxError", "nothing of ours is beside a student's code"),
         (FORK_SERVER, "from . import host", "nothing of ours is beside a student's code"),
-        ("autograder.reports.html", "import autograder.render.stub", "reports may import render.figure, verdicts"),
+        ("autograder.reports.html", "import autograder.render.stub", "reports may import errors, marking, render.figure, verdicts"),
         ("autograder.__init__", "import autograder.errors", "autograder/__init__.py may import nothing of ours"),
         ("autograder.attic.old", "", "There is a room `attic`, which the table does not know"),
     ],

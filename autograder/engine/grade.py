@@ -200,6 +200,11 @@ class _Grading:
             notes=(*filter(None, [self.assigned[submission.id].note]), *submission.notes, *answer.notes),
             flags=self._flags(submission, answer),
             written=answer.written,
+            images={
+                name: data
+                for name, data in submission.pictures.items()
+                if any(name in text for text in answer.written.values())
+            },
         )
 
     def _flags(self, submission: Submission, answer: Graded) -> tuple[str, ...]:

@@ -1,20 +1,23 @@
 """A notebook becomes the texts of its code cells: read by name of field, within bounds, nothing executed.
 
-Only `cell_type` and `source` of each cell count. Ids, metadata, outputs, execution counts and attachments are skipped
-while reading, never built: a notebook whose cells were duplicated, retyped or stripped of metadata reads like any
-other, and what its outputs claim is not seen. Of the notebook's own metadata one short text is read, the variant that
-it was handed out with; it is a claim, and counts last. Where a key stands twice the last one counts, as in Jupyter.
+Only `cell_type` and `source` of each cell count, and the pictures that a markdown cell shows. Ids, metadata, outputs
+and execution counts are skipped while reading, never built: a notebook whose cells were duplicated, retyped or stripped
+of metadata reads like any other, and what its outputs claim is not seen. Of the notebook's own metadata one short text
+is read, the variant that it was handed out with; it is a claim, and counts last. Where a key stands twice the last one
+counts, as in Jupyter.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import msgspec
 
 from autograder.errors import RejectedUpload
 from autograder.intake.module import MAX_SOURCE, one_newline, reject_foreign
+from autograder.intake.pictures import MAX_PICTURES, with_pictures
 
 MAX_NOTEBOOK = 20 << 20  # bytes of the file, outputs included
 MAX_CELLS = 10_000
@@ -31,6 +34,7 @@ class _Cell(msgspec.Struct, gc=False):
 
     cell_type: str
     source: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
+    attachments: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
 
 
 class _Notebook(msgspec.Struct):
@@ -50,6 +54,7 @@ class _Metadata(msgspec.Struct):
 
 _METADATA = msgspec.json.Decoder(_Metadata)
 _NOTEBOOK = msgspec.json.Decoder(_Notebook)
+_ATTACHMENTS = msgspec.json.Decoder(dict[str, dict[str, str]])
 _SOURCE = msgspec.json.Decoder(str | list[str])
 
 
@@ -61,6 +66,7 @@ class Notebook:
     markdown: tuple[str, ...]
     notes: tuple[str, ...] = ()
     variant: str = ""
+    pictures: Mapping[str, str] = field(default_factory=dict)
 
 
 def read_notebook(data: bytes) -> Notebook:
@@ -85,7 +91,8 @@ def read_notebook(data: bytes) -> Notebook:
         notes.append("The notebook has no code cell.")
     if version != "4":
         notes.append(f"The notebook names its format {version!r}, not 4; its cells were read all the same.")
-    return Notebook(tuple(code), tuple(_markdown(notebook.cells)), tuple(notes), _variant(notebook.metadata))
+    markdown, pictures = _markdown(notebook.cells)
+    return Notebook(tuple(code), tuple(markdown), tuple(notes), _variant(notebook.metadata), pictures)
 
 
 def looks_like_notebook(data: bytes) -> bool:
@@ -160,9 +167,11 @@ def _code(cells: list[_Cell]) -> tuple[list[str], list[str]]:
     return code, notes[:5]
 
 
-def _markdown(cells: list[_Cell]) -> list[str]:
-    """Return the markdown cells, as far as they are readable and together within the limit of code."""
+def _markdown(cells: list[_Cell]) -> tuple[list[str], dict[str, str]]:
+    """Return the markdown cells, as far as they are readable and together within the limit of code, with pictures."""
     texts: list[str] = []
+    pictures: dict[str, str] = {}
+    pictures_left = MAX_PICTURES
     raw_left = _MAX_RAW
     for number, cell in enumerate(cells, start=1):
         if cell.cell_type == "markdown" and not isinstance(cell.source, msgspec.UnsetType):
@@ -170,10 +179,23 @@ def _markdown(cells: list[_Cell]) -> list[str]:
             if raw_left < 0:
                 break
             try:
-                texts.append(_text(cell, number))
+                text = _text(cell, number)
             except RejectedUpload:
                 continue
-    return texts
+            if "attachment:" in text:
+                text, found, pictures_left = with_pictures(text, _attached(cell), pictures_left)
+                pictures |= found
+            texts.append(text)
+    return texts, pictures
+
+
+def _attached(cell: _Cell) -> dict[str, dict[str, str]]:
+    if isinstance(cell.attachments, msgspec.UnsetType):
+        return {}
+    try:
+        return _ATTACHMENTS.decode(cell.attachments)
+    except (msgspec.DecodeError, RecursionError, ValueError):
+        return {}
 
 
 def _text(cell: _Cell, number: int) -> str:

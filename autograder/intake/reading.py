@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 from autograder.errors import RejectedUpload
 from autograder.intake.archive import MAX_ARCHIVE, archive_tree
@@ -25,6 +26,7 @@ class Content:
     markdown: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     variant: str = ""
+    pictures: Mapping[str, str] = field(default_factory=dict)
 
 
 def read_entry(entry: Entry) -> Content:
@@ -56,7 +58,7 @@ def digest(source: Source) -> str:
 def _read_notebook(data: bytes, name: str) -> Content:
     notebook = read_notebook(data)
     source = Source(kind="notebook", cells=list(notebook.code), name=printable(name))
-    return Content(source, notebook.markdown, notebook.notes, notebook.variant)
+    return Content(source, notebook.markdown, notebook.notes, notebook.variant, notebook.pictures)
 
 
 def _read_archive(data: bytes) -> Content:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from autograder.errors import RejectedUpload, UsageError
@@ -50,6 +50,8 @@ class Submission:
         The markdown cells of a notebook, for a human reader; never executed.
     variant : str
         The variant that a notebook's metadata name; "" where none. A claim, not a fact.
+    pictures : mapping of str to str
+        Pictures in the markdown cells, by the names that these use, as data URIs.
     """
 
     id: str
@@ -64,6 +66,7 @@ class Submission:
     submitted: str = ""
     markdown: tuple[str, ...] = ()
     variant: str = ""
+    pictures: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -177,7 +180,7 @@ def _read(item: _Found, name: str) -> Submission:
         return replace(submission, rejection=_sentence(item, str(error)))
     return replace(
         submission, source=content.source, notes=(*notes, *content.notes), digest=digest(content.source),
-        markdown=content.markdown, variant=content.variant,
+        markdown=content.markdown, variant=content.variant, pictures=content.pictures,
     )  # fmt: skip
 
 

@@ -6,11 +6,15 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from autograder.errors import RejectedUpload
 from autograder.intake.naming import printable
 from autograder.intake.tree import PROVIDED_FILES, Entry, is_candidate
 
 EXPECTED = "expected one .py, .ipynb or .zip file"
 HOMEWORK = "slam1d"  # the name under which the homework is handed out
+CORE = ("residual", "jacobian", "information_matrix", "normal_equations", "gauss_newton_step")
+_OPEN = "{} is not finished yet: replace this line"  # what an unfinished function raises, as it was handed out
+_LARGEST_STUB = 1 << 20  # bytes
 _COMPANIONS = re.compile(r"(__init__|conftest|setup|noxfile|test_.*|.*_test)\.py", re.IGNORECASE)
 _WRONG_KINDS = re.compile(r".*(\.(rar|7z|tar|tgz|gz|bz2|xz|pyw|pyc)|\.(py|ipynb)\.(txt|json|html))", re.IGNORECASE)
 
@@ -52,7 +56,9 @@ class Upload:
 def choose(entries: Sequence[Entry]) -> tuple[Entry | None, str, tuple[str, ...]]:
     """Pick the one file that counts among those of one student: (entry, problem, notes).
 
-    Nothing is guessed: of several files only one that has the name of the homework is taken, and that is noted.
+    Nothing is guessed: of several files only one that has the name of the homework is taken, and that is noted. Where
+    module and notebook were both handed in, because they were handed out together, the one in which no function was
+    begun does not count.
     """
     candidates = [entry for entry in entries if is_candidate(entry)]
     if len(candidates) > 1:
@@ -60,6 +66,8 @@ def choose(entries: Sequence[Entry]) -> tuple[Entry | None, str, tuple[str, ...]
     if len(candidates) == 1:
         return candidates[0], "", ()
     named = [entry for entry in candidates if entry.stem.casefold() == HOMEWORK]
+    if len(named) > 1:
+        named = [entry for entry in named if not _is_untouched(entry)]
     if len(named) == 1:
         others = listing([entry.name for entry in candidates if entry is not named[0]])
         return named[0], "", (f"Graded {named[0].name}; also handed in and not graded: {others}.",)
@@ -70,6 +78,15 @@ def choose(entries: Sequence[Entry]) -> tuple[Entry | None, str, tuple[str, ...]
     if any(name.casefold() in PROVIDED_FILES for name in found):
         return None, f"holds only files that were handed out ({listing(found)}), {EXPECTED}", ()
     return None, f"holds no submission (found {listing(found) or 'nothing'}), {EXPECTED}", ()
+
+
+def _is_untouched(entry: Entry) -> bool:
+    """Say whether every function of a file is as unfinished as it was handed out."""
+    try:
+        data = entry.load(_LARGEST_STUB)
+    except RejectedUpload:
+        return False
+    return all(_OPEN.format(name).encode() in data for name in CORE)
 
 
 def without_companions(entries: Sequence[Entry]) -> list[Entry]:
