@@ -34,8 +34,8 @@ _CASES = (
     _Case("waiting time", "an endless sleep", "import time; time.sleep(1e6)", "timeout"),
     _Case("memory", "a memory bomb", "a = [0]\n    while True: a = a + a", "memory"),
     _Case("output", "an output flood", "while True: print('x' * 1000)", "output"),
-    _Case("processes", "a fork", "import os; return os.fork()", "refused"),
-    _Case("files", "an opened file", "open('/dev/null')", "refused"),
+    _Case("processes", "starting a process", "import os; return os.fork()", "refused"),
+    _Case("files", "opening a file", "open('/dev/null')", "refused"),
 )
 
 
