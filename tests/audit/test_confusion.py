@@ -1,0 +1,59 @@
+"""The confusion matrix: what each slip answers on the corpus is recognised as that slip and no other."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from autograder.diagnosis.recognise import Recogniser, trusted_call
+from autograder.engine.corpus import draw_corpus
+from autograder.engine.evidence import Joined
+from autograder.stages.base import Slip, Stage
+from autograder.stages.catalogue import all_stages, slips
+
+WITH_SLIPS = [stage for stage in all_stages() if slips(stage.name)]
+
+
+def answers(slip: Slip, stage: Stage, calls: list[Any]) -> Joined:
+    """Lay what a slip returns end to end; a call that raises has an outcome that is not 0."""
+    values = [trusted_call(slip.function, call, stage.parts) for call in calls]
+    arrays = [array for value in values for array in (value or (np.zeros(0),) * stage.parts)]
+    return Joined(
+        outcome=np.array([value is None for value in values], dtype=np.uint8),
+        shapes=[array.shape for array in arrays],
+        offsets=np.concatenate([[0], np.cumsum([array.size for array in arrays])]).astype(np.int64),
+        data=np.concatenate([array.ravel() for array in arrays]),
+    )
+
+
+def confusion(stage: Stage, examples: int, seed: int = 0) -> dict[str, str | None]:
+    """Return for every slip of a stage the name that its answers are given."""
+    rungs = draw_corpus((stage,), seed, examples).cases[stage.ladder.name]
+    calls = [call for found in rungs.values() for case in found for call in stage.calls(case)]
+    recogniser = Recogniser(stage, calls)
+    found = {slip.identifier: recogniser.recognise(answers(slip, stage, calls)) for slip in slips(stage.name)}
+    return {name: None if slip is None else slip.identifier for name, slip in found.items()}
+
+
+@pytest.mark.parametrize("examples", [0, 8])
+@pytest.mark.parametrize("stage", WITH_SLIPS, ids=lambda stage: stage.name)
+def test_the_confusion_matrix_is_diagonal(stage: Stage, examples: int) -> None:
+    """Every slip is named as itself, on the fixed core alone and with drawn cases."""
+    found = confusion(stage, examples)
+    assert {name: got for name, got in found.items() if got != name} == {}
+
+
+@pytest.mark.parametrize("stage", WITH_SLIPS, ids=lambda stage: stage.name)
+def test_what_is_right_is_no_slip(stage: Stage) -> None:
+    """The reference's answers are given no name, but that of single precision, which has seven digits of them."""
+    rungs = draw_corpus((stage,), 0, 0).cases[stage.ladder.name]
+    calls = [call for found in rungs.values() for case in found for call in stage.calls(case)]
+    right = Slip("right", "It is right.", "Nothing to find.", lambda *call: _plain(stage.expected(*call)))
+    found = Recogniser(stage, calls).recognise(answers(right, stage, calls))
+    assert found is None or found.identifier == "information_in_single_precision"
+
+
+def _plain(arrays: tuple[Any, ...]) -> Any:
+    return arrays if len(arrays) > 1 else arrays[0]
