@@ -40,7 +40,7 @@ test: $(VENV)/ready
 	@$(PY) -m pytest -q --cov --cov-report=term
 
 bench: $(VENV)/ready
-	@$(PY) -m bench
+	@$(PY) -m tests.benchmarks
 
 fuzz: $(VENV)/ready
 	@echo "--- property tests, fresh examples"

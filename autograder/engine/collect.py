@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from autograder.engine import follow
-from autograder.engine.plan import Plan, Task
+from autograder.engine.plan import Bundle, Plan, Task
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Failure, Loaded, Outputs, Session
 
@@ -72,19 +72,50 @@ class Collected:
 def collect(session: Session, plan: Plan) -> Collected:
     """Load the submission and run every check; a stage that hangs or dies costs only itself."""
     collected = Collected(session.load())
-    for stage, tasks in plan.stages:
+    together = True  # until asking together has failed: then each check has the whole time limit for itself
+    for stage, _ in plan.stages:
         if stage.name == follow.STAGE:
             collected.own_systems = _own_systems(session, plan, collected)
-        failed: dict[str, Reply] = {}  # the rest of a stage would end the same way
-        for task in tasks:
-            function = task.stage.function
-            if function not in collected.loaded.functions:
-                continue
-            reply = failed.get(function) or judged(session, plan, task, session.run(task.batch))
-            collected.replies[task.batch] = reply
-            if reply.failure is not None:
-                failed[function] = reply
+        for bundle in plan.bundles_of(stage):
+            if bundle.tasks[0].stage.function in collected.loaded.functions:
+                replies = _bundle(session, plan, bundle) if together else None
+                together = replies is not None
+                collected.replies.update(replies or _one_by_one(session, plan, bundle))
     return collected
+
+
+def _bundle(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply] | None:
+    """Ask several checks at once; None where that fails, and then it has not counted."""
+    before = session.left
+    outputs = session.run(bundle.batch)
+    if isinstance(outputs, Failure):
+        session.restore(before)
+        return None
+    begins = (0, *bundle.ends[:-1])
+    parts = [sliced(outputs, *span) for span in zip(begins, bundle.ends, strict=True)]
+    rounds = [task.stage.follow_up(task.prepared, part) for task, part in zip(bundle.tasks, parts, strict=True)]
+    calls = [call for each in rounds if each is not None for call in each]
+    if not calls:
+        return {task.batch: _judged(task, part, None) for task, part in zip(bundle.tasks, parts, strict=True)}
+    again = session.call(plan.second_round(bundle.tasks, calls))
+    if isinstance(again, Failure):
+        session.restore(before)
+        return None
+    ends = np.cumsum([len(each or ()) for each in rounds]).tolist()
+    seconds = [sliced(again, *span) for span in zip((0, *ends[:-1]), ends, strict=True)]
+    return {
+        task.batch: _judged(task, part, second) for task, part, second in zip(bundle.tasks, parts, seconds, strict=True)
+    }
+
+
+def _one_by_one(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply]:
+    replies: dict[int, Reply] = {}
+    failed: Reply | None = None
+    for task in bundle.tasks:
+        replies[task.batch] = failed or judged(session, plan, task, session.run(task.batch))
+        if replies[task.batch].failure is not None:
+            failed = replies[task.batch]  # the rest would end the same way
+    return replies
 
 
 def judged(session: Session, plan: Plan, task: Task, outputs: Outputs | Failure) -> Reply:
@@ -95,11 +126,30 @@ def judged(session: Session, plan: Plan, task: Task, outputs: Outputs | Failure)
     again = None if calls is None else session.call(plan.batch(task.stage, calls))
     if isinstance(again, Failure):
         return Reply(outputs, again)
+    return _judged(task, outputs, again)
+
+
+def _judged(task: Task, outputs: Outputs, again: Outputs | None) -> Reply:
     right = task.stage.judge(task.prepared, outputs, again)
     for part, firsts in ((outputs, task.first_calls), (again, np.arange(len(task.cases)))):
         if part is not None and part.outcome.any():
             right = right & np.logical_and.reduceat(part.outcome == Outcome.OK, firsts)
     return Reply(outputs, again, right)
+
+
+def sliced(outputs: Outputs, first: int, last: int) -> Outputs:
+    """Return the outputs of the calls from `first` up to `last`."""
+    parts = len(outputs.shapes) // max(len(outputs.outcome), 1)
+    offsets = outputs.offsets[first * parts : last * parts + 1]
+    return Outputs(
+        outcome=outputs.outcome[first:last],
+        kinds=outputs.kinds[first * parts : last * parts],
+        shapes=outputs.shapes[first * parts : last * parts],
+        offsets=offsets - offsets[0],
+        data=outputs.data[offsets[0] : offsets[-1]],
+        reasons={call - first: words for call, words in outputs.reasons.items() if first <= call < last},
+        mutated=outputs.mutated - first if first <= outputs.mutated < last else -1,
+    )
 
 
 def _own_systems(session: Session, plan: Plan, collected: Collected) -> dict[str, follow.Systems] | None:

@@ -185,9 +185,9 @@ def remarks(tasks: Sequence[Task], replies: Sequence[Reply]) -> tuple[str, ...]:
         if not isinstance(outputs, Outputs):
             continue
         function = task.stage.function
-        for kind, words in _REMARKS.items():
-            if not (kind is Kind.BOOL_ARRAY and task.stage.takes_truth) and (outputs.kinds == kind).any():
-                found[f"{function} {words}"] = None
+        met = set(outputs.kinds.tobytes()) - ({Kind.BOOL_ARRAY} if task.stage.takes_truth else set())
+        for kind in sorted(met & _REMARKS.keys()):
+            found[f"{function} {_REMARKS[Kind(kind)]}"] = None
         wanted = task.stage.layout(task.prepared).shapes
         if outputs.shapes != wanted and any(
             shape != want and len(want) == 1 and fits(shape, want)

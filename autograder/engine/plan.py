@@ -18,6 +18,7 @@ from autograder.sandbox import frames
 from autograder.stages.base import Stage
 
 Shared = PoseGraph | Ranging
+MAX_REPLY = 8 * 1024 * 1024  # bytes that one reply may have at the most, where checks are asked together
 SLACK = 16  # numbers that an answer may hold beyond twice the expected ones before only its shape is reported
 
 
@@ -51,15 +52,29 @@ class Task:
 
 
 @dataclass(frozen=True)
+class Bundle:
+    """Checks of one function that are asked in one request, which saves most of the talking.
+
+    `batch` is the number of the joint batch; `ends` says where the calls of each check end in it.
+    """
+
+    tasks: tuple[Task, ...]
+    batch: int
+    ends: tuple[int, ...]
+
+
+@dataclass(frozen=True)
 class Plan:
     """All tasks of a run, in order, and the inputs of the sandbox as bytes."""
 
     tasks: tuple[Task, ...]
+    bundles: tuple[Bundle, ...]
     points: Mapping[str, float]
     follow_through: float
     corpus: Corpus
     inputs: bytes
     objects: Mapping[Shared, int] = field(repr=False)
+    _numbers: dict[int, list[int]] = field(default_factory=dict, repr=False)
 
     @cached_property
     def stages(self) -> tuple[tuple[Stage, tuple[Task, ...]], ...]:
@@ -68,6 +83,10 @@ class Plan:
         for task in self.tasks:
             grouped.setdefault(task.stage.name, []).append(task)
         return tuple((tasks[0].stage, tuple(tasks)) for tasks in grouped.values())
+
+    def bundles_of(self, stage: Stage) -> list[Bundle]:
+        """Return the bundles of a stage."""
+        return [bundle for bundle in self.bundles if bundle.tasks[0].stage.name == stage.name]
 
     def stage(self, name: str) -> Stage:
         """Return a stage of this run by its name."""
@@ -89,6 +108,23 @@ class Plan:
         """Make a batch of calls that can be sent as it is; graphs of the corpus go by number."""
         return _batch(stage, calls, self.objects)
 
+    def second_round(self, tasks: Sequence[Task], calls: Sequence[Case]) -> frames.Batch:
+        """Make the batch of a second round: new states on the graphs of the tasks' own cases, by number."""
+        numbers = [number for task in tasks for number in self._graphs_of(task)]
+        cases: list[list[frames.Argument]] = [
+            [_array(x), number] for (x, _), number in zip(calls, numbers, strict=True)
+        ]
+        largest = max(x.size for x, _ in calls)
+        return frames.Batch(tasks[0].stage.function, tasks[0].stage.parts, 2 * largest + SLACK, cases)
+
+    def _graphs_of(self, task: Task) -> list[int]:
+        """Return the numbers of the graphs of a task's cases; looked up once, for comparing graphs takes time."""
+        known = self._numbers.get(task.batch)
+        if known is None:
+            known = [self.objects.get(graph, -1) for _, graph in task.cases]
+            self._numbers[task.batch] = known
+        return known
+
 
 def make_plan(
     stages: Sequence[Stage], points: Mapping[str, float], corpus: Corpus, follow_through: float = 0.5
@@ -107,8 +143,42 @@ def make_plan(
                         objects.setdefault(argument, len(objects))
             tasks.append(Task(stage.facet(rung.name), rung, cases, len(batches)))
             batches.append(_batch(stage.facet(rung.name), calls, objects))
+    bundles = _bundles(tasks, batches)
     inputs = frames.encode_inputs(frames.Inputs(objects=[shared_data(each) for each in objects], batches=batches))
-    return Plan(tuple(tasks), points, follow_through, corpus, inputs, objects)
+    return Plan(tuple(tasks), tuple(bundles), points, follow_through, corpus, inputs, objects)
+
+
+def _bundles(tasks: Sequence[Task], batches: list[frames.Batch]) -> list[Bundle]:
+    """Join the checks of one function as long as the reply stays bounded; the joint batches go to the end."""
+    bundles: list[Bundle] = []
+    open_tasks: list[Task] = []
+
+    def close() -> None:
+        joint = _joined([batches[task.batch] for task in open_tasks])
+        ends = np.cumsum([len(batches[task.batch].cases) for task in open_tasks]).tolist()
+        bundles.append(Bundle(tuple(open_tasks), len(batches), tuple(ends)))
+        batches.append(joint)
+        open_tasks.clear()
+
+    for task in tasks:
+        if open_tasks:
+            same = open_tasks[-1].stage is task.stage
+            joint = _joined([batches[each.batch] for each in (*open_tasks, task)])
+            if not same or frames.reply_bound(joint) > MAX_REPLY:
+                close()
+        open_tasks.append(task)
+    if open_tasks:
+        close()
+    return bundles
+
+
+def _joined(batches: Sequence[frames.Batch]) -> frames.Batch:
+    return frames.Batch(
+        function=batches[0].function,
+        parts=batches[0].parts,
+        max_elements=max(batch.max_elements for batch in batches),
+        cases=[case for batch in batches for case in batch.cases],
+    )
 
 
 def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[Shared, int]) -> frames.Batch:
@@ -125,7 +195,11 @@ def _argument(argument: Any, objects: Mapping[Shared, int]) -> frames.Argument:
     if isinstance(argument, PoseGraph | Ranging):
         known = objects.get(argument)
         return shared_data(argument) if known is None else known
-    return frames.Array(argument.shape, np.asarray(argument, dtype="<f8").tobytes())
+    return _array(argument)
+
+
+def _array(values: np.ndarray) -> frames.Array:
+    return frames.Array(values.shape, np.asarray(values, dtype="<f8").tobytes())
 
 
 def shared_data(graph: Shared) -> frames.GraphData | frames.RangingData:

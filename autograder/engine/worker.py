@@ -5,8 +5,10 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
+import threading
 import time
-from multiprocessing.connection import Connection
+from multiprocessing import parent_process
+from multiprocessing.connection import Connection, wait
 from typing import Any
 
 import msgspec
@@ -125,6 +127,7 @@ def decode_message(data: bytes) -> Message:
 def main(connection: Connection, orders: bytes) -> None:
     """Serve until the other end closes: jobs in, verdicts out."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's to handle
+    threading.Thread(target=_end_with_parent, daemon=True).start()
 
     def send(message: Message) -> None:
         connection.send_bytes(msgspec.msgpack.encode(message))
@@ -142,6 +145,14 @@ def main(connection: Connection, orders: bytes) -> None:
             examiner = _Examiner(plan, sandbox)
             while True:
                 send(examiner.do(msgspec.msgpack.decode(connection.recv_bytes(), type=Job)))
+
+
+def _end_with_parent() -> None:
+    """End this worker as soon as the grader is gone, however it went: the fork server and its child follow."""
+    parent = parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(1)
 
 
 class _Examiner:

@@ -60,6 +60,10 @@ class Session:
         """What the submission may still use, as it stands now."""
         return replace(self._budget)
 
+    def restore(self, budget: Budget) -> None:
+        """Give back what an attempt used that does not count."""
+        self._budget = replace(budget)
+
     def run(self, batch: int) -> Outputs | Failure:
         """Make the calls of a batch of the inputs."""
         nonce = secrets.randbits(62)
