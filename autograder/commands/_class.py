@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -85,10 +86,15 @@ def known_mistakes() -> dict[str, Mistake]:
 
 def demand_of(mix: Mapping[str, int]) -> Demand:
     """Find out what the families of a mix can show."""
+    return _demand(tuple(sorted(mix)))
+
+
+@cache
+def _demand(labels: tuple[str, ...]) -> Demand:
     from autograder.problems.discriminating import Demand
     from autograder.problems.families import family
 
-    return Demand([family(label) for label in mix], known_mistakes())
+    return Demand([family(label) for label in labels], known_mistakes())
 
 
 def drawn_ledger(

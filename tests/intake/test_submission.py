@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import socket
 from pathlib import Path
@@ -10,6 +11,8 @@ import pytest
 
 from autograder.errors import UsageError
 from autograder.intake.submission import Submission, collect
+from autograder.problems.problem import worked_problem
+from autograder.render.handout import render_folder
 from autograder.sandbox.frames import Source
 from tests.intake.making import CODE, archive, cell, notebook, write
 
@@ -268,3 +271,27 @@ def test_hostile_file_names_become_safe_ids(tmp_path: Path) -> None:
         assert each.source.name.encode()
     assert "Zoë Ω" in found
     assert "_con" in found
+
+
+@pytest.mark.parametrize("solved", ["slam1d.py", "slam1d.ipynb"])
+def test_a_whole_folder_as_it_was_handed_out_is_read(tmp_path: Path, solved: str) -> None:
+    """Of module and notebook the one counts in which something was begun; what was not graded is named."""
+    folder = render_folder(worked_problem())
+    first = 'raise NotImplementedError("residual is not finished yet'
+    mark = json.dumps(first)[1:-1] if solved.endswith("ipynb") else first
+    assert mark in folder[solved]
+    folder[solved] = folder[solved].replace(mark, mark.replace("residual", "almost"))
+    (tmp_path / "ada.zip").write_bytes(archive({f"ada/{name}": text for name, text in folder.items()}))
+    (found,) = by_id(tmp_path).values()
+    assert found.source is not None
+    assert found.source.name == solved
+    other = ({"slam1d.py", "slam1d.ipynb"} - {solved}).pop()
+    assert any("also handed in and not graded: " in note and other in note for note in found.notes)
+
+
+def test_a_whole_folder_with_both_begun_is_not_guessed_at(tmp_path: Path) -> None:
+    """Where module and notebook were both worked in, a human has to say which counts."""
+    both = {"slam1d.py": "x = 1\n", "slam1d.ipynb": notebook(cell("y = 2"))}
+    (tmp_path / "ada.zip").write_bytes(archive(both))
+    (found,) = by_id(tmp_path).values()
+    assert "holds 2 submissions" in found.rejection
