@@ -20,7 +20,7 @@ from autograder.engine.explain import Explainer, Explanation
 from autograder.engine.follow import STAGE
 from autograder.engine.judge import Judge
 from autograder.engine.plan import Plan, make_plan
-from autograder.errors import AutograderError
+from autograder.errors import AutograderError, SandboxLost
 from autograder.problems.variants import published
 from autograder.sandbox.frames import Source
 from autograder.sandbox.host import Answers, Limits, Sandbox
@@ -98,6 +98,7 @@ class Graded(msgspec.Struct, frozen=True, tag=True):
     seconds: float
     written: dict[str, str]
     iterates: list[list[float]] | None
+    confinement: str = ""
 
 
 class Explained(msgspec.Struct, frozen=True, tag=True):
@@ -108,10 +109,11 @@ class Explained(msgspec.Struct, frozen=True, tag=True):
 
 
 class Trouble(msgspec.Struct, frozen=True, tag=True):
-    """The grader's own fault, in words."""
+    """The grader's own fault, in words; `lost` where nothing is known but that a worker has gone."""
 
     message: str
     fatal: bool = False
+    lost: bool = False
 
 
 Job = Grade | Explain
@@ -132,17 +134,20 @@ def main(connection: Connection, orders: bytes) -> None:
     def send(message: Message) -> None:
         connection.send_bytes(msgspec.msgpack.encode(message))
 
-    with contextlib.suppress(BrokenPipeError, EOFError, ConnectionResetError):
+    # A lost fork server ends the worker without a word: who waits for it starts another.
+    with contextlib.suppress(BrokenPipeError, EOFError, ConnectionResetError, SandboxLost):
         told = msgspec.msgpack.decode(orders, type=Orders)
         try:
             plan = told.plan()
             sandbox = Sandbox(plan.inputs, told.limits(), allow_unconfined=told.allow_unconfined)
+        except SandboxLost:
+            raise
         except AutograderError as error:
             send(Trouble(str(error), fatal=True))
             return
         with sandbox:
             send(Ready(sandbox.confinement.level, sandbox.confinement.detail))
-            examiner = _Examiner(plan, sandbox)
+            examiner = Examiner(plan, sandbox)
             while True:
                 send(examiner.do(msgspec.msgpack.decode(connection.recv_bytes(), type=Job)))
 
@@ -155,8 +160,16 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-class _Examiner:
-    """Does the jobs of one worker."""
+class Examiner:
+    """Does the jobs of one worker.
+
+    Parameters
+    ----------
+    plan : Plan
+        The exam.
+    sandbox : Sandbox
+        The worker's own fork server, with the inputs of the plan in it.
+    """
 
     def __init__(self, plan: Plan, sandbox: Sandbox) -> None:
         self.sandbox = sandbox
@@ -165,9 +178,17 @@ class _Examiner:
         self.explainer = Explainer(plan)
 
     def do(self, job: Job) -> Message:
-        """Do one job; whatever goes wrong here is the grader's fault, never a zero."""
+        """Do one job; whatever goes wrong here is the grader's fault, never a zero.
+
+        Raises
+        ------
+        SandboxLost
+            Where the fork server has gone: this worker is of no use any more.
+        """
         try:
             return self._grade(job) if isinstance(job, Grade) else self._explain(job)
+        except SandboxLost:
+            raise
         except Exception as error:
             if os.environ.get("AUTOGRADER_DEBUG"):
                 raise
@@ -193,6 +214,7 @@ class _Examiner:
             seconds=time.perf_counter() - began,
             written=texts,
             iterates=None if given.iterates is None or given.iterates.ndim != 2 else given.iterates.tolist(),
+            confinement=self.sandbox.confinement.level,
         )
 
     def _explain(self, job: Explain) -> Explained:

@@ -41,14 +41,14 @@ class Graded:
         return {path.stem: decode(path.read_bytes()) for path in (self.out / "results").glob("*.json")}
 
 
-def grade(folder: Path, out: Path, options: Sequence[str] = OPTIONS) -> Graded:
+def grade(folder: Path, out: Path, options: Sequence[str] = OPTIONS, mode: str = "watch") -> Graded:
     """Grade a folder with the real command, under the eyes of the guard."""
     course = out.parent / "course.toml"
     course.write_text(COURSE)
     report = out.with_suffix(".guard.json")
     command = [sys.executable, "-m", "autograder", "grade", folder, "-o", out, "--course", course, *options]
     ended = subprocess.run(
-        [sys.executable, GUARD, report, *map(str, command)],
+        [sys.executable, GUARD, report, mode, *map(str, command)],
         cwd=ROOT,
         env={**os.environ, SECRET: "x"},
         capture_output=True,

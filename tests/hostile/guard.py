@@ -1,6 +1,9 @@
 """Runs one command as its child, watches it from outside, and says as JSON what it did and what it left.
 
-    python guard.py REPORT COMMAND ...
+    python guard.py REPORT MODE COMMAND ...
+
+MODE is "watch", or "kill": then the command is killed as soon as a submission computes in a child
+of one of its fork servers, and what counts is how soon everything below it is gone.
 
 As the reaper of all that the command leaves behind, it sees processes that outlive it. It counts
 signals that reach it, and follows the memory of the command and of its workers.
@@ -19,10 +22,11 @@ from pathlib import Path
 
 _SET_CHILD_SUBREAPER = 36
 _WATCHED = (signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1, signal.SIGUSR2, signal.SIGWINCH, signal.SIGURG)
-_GRACE = 2.0  # seconds that children of a fork server may take to end after it
+_GRACE = 10.0  # seconds to wait for what a command leaves behind, before it is killed and counted
+_BELOW = 3  # generations from the command to a submission: worker, fork server, child
 
 
-def main(report: str, command: list[str]) -> None:
+def main(report: str, mode: str, command: list[str]) -> None:
     """Run the command and write the report."""
     signals: list[int] = []
     for number in _WATCHED:
@@ -35,8 +39,11 @@ def main(report: str, command: list[str]) -> None:
     while process.poll() is None:
         peak = max(peak, *(_peak(pid) for pid in [process.pid, *_children(process.pid)]))
         time.sleep(0.05)
+        if mode == "kill" and _computes(process.pid):
+            process.kill()
     seconds = time.monotonic() - began
     left = _orphans()
+    after = time.monotonic() - began - seconds
     times = os.times()
     Path(report).write_text(
         json.dumps(
@@ -44,6 +51,7 @@ def main(report: str, command: list[str]) -> None:
                 "code": process.returncode,
                 "seconds": seconds,
                 "cpu_seconds": times.children_user + times.children_system,
+                "seconds_after": after,
                 "peak_kib": peak,
                 "processes_left": left,
                 "signals": signals,
@@ -59,6 +67,23 @@ def _children(pid: int) -> list[int]:
         return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
     except OSError:
         return []
+
+
+def _computes(pid: int) -> bool:
+    """Tell whether a submission is running below a grader, for a while already."""
+    generation = [pid]
+    for _ in range(_BELOW):
+        generation = [child for parent in generation for child in _children(parent)]
+    return any(_age(child) > 0.2 for child in generation)
+
+
+def _age(pid: int) -> float:
+    """Return for how long a process has lived [s]; 0 where it is gone."""
+    try:
+        started = int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[19])
+    except OSError:
+        return 0.0
+    return time.clock_gettime(time.CLOCK_BOOTTIME) - started / os.sysconf("SC_CLK_TCK")
 
 
 def _peak(pid: int) -> int:
@@ -87,4 +112,4 @@ def _orphans() -> int:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2:])
+    main(sys.argv[1], sys.argv[2], sys.argv[3:])
