@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import click
 
@@ -205,10 +205,21 @@ def grade_and_report(
     import msgspec
 
     from autograder.commands._progress import progress
+    from autograder.commands._reporting import say, show_changes, write_all
     from autograder.commands.report import stored_results
     from autograder.engine.grade import Settings, grade
-    from autograder.reports.folder import write_reports
+    from autograder.marking.folder import stored_course
+    from autograder.marking.marks import read_marks
+    from autograder.marking.overrides import read_overrides
 
+    read_marks(out), read_overrides(out)  # what is wrong with them is better known before an hour of grading
+    last = stored_course(out)
+    if last is not None and last != course:
+        say(
+            f"{out} was written with other settings of the course; those of this command hold now, for everybody in it."
+        )
+    if feedback is not None:
+        course = replace(course, feedback=cast("Any", feedback), before_due=None)
     course = replace(course, memory_mib=memory or course.memory_mib, output_mib=output_limit or course.output_mib)
     given: dict[str, Any] = {
         "seed": seed if seed is not None else (course.seed or 0),
@@ -220,17 +231,15 @@ def grade_and_report(
     settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, **given)
     with progress() as report:
         run = grade(submissions, course, settings, out, report, assigned)
-    if merge:
-        run = replace(run, results=stored_results(out))
-    write_reports(
-        run.results,
-        out,
-        msgspec.to_builtins(run.record),
-        stages=course.stages,
-        feedback=settings.feedback,
-        course=course.title,
-    )
-    return run
+    results = run.results
+    if merge or (run.interrupted and results):
+        uploads = {submission.id for submission in submissions}
+        results = tuple(one for one in stored_results(out) if merge or one.submission in uploads)
+    record = msgspec.to_builtins(run.record)
+    whole = not run.interrupted
+    found, moved = write_all(out, results, record, course, feedback=feedback, strict=False, complete=whole)
+    show_changes(moved, quiet=True)
+    return replace(run, results=found.results)
 
 
 def make_folder(out: Path) -> None:
@@ -254,7 +263,9 @@ def print_results(results: Sequence[Result], out: Path, as_json: bool) -> None:
     from autograder.reports.terminal import console, print_class
 
     print_class(results, console())
-    names = ("grades.csv", "report.html", "feedback", "results")
+    names = [
+        name for name in ("grades.csv", "report.html", "written.html", "feedback", "results") if (out / name).exists()
+    ]
     click.echo(f"\nWrote {', '.join(str(out / name) for name in names)}.", err=True)
 
 

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
+
+if TYPE_CHECKING:
+    from autograder.course import Course
+    from autograder.verdicts import Result
+
+_MOST_LINES = 20
 
 
 @click.command()
@@ -26,32 +33,81 @@ import click
     show_default=True,
     help="What to print: the class as a table, or a forum post that names nobody.",
 )
+@click.option(
+    "--marks",
+    "marks_file",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Take the points and comments of written answers from this filled sheet (OUT/written.csv).",
+)
+@click.option("--anonymous", is_flag=True, help="Replace the names on written.html and written.csv.")
 @click.option("--json", "as_json", is_flag=True, help="One result object a line to stdout, and no table.")
-def command(out: Path, course_file: Path | None, feedback: str | None, kind: str, as_json: bool) -> None:
+def command(
+    out: Path,
+    course_file: Path | None,
+    feedback: str | None,
+    kind: str,
+    marks_file: Path | None,
+    anonymous: bool,
+    as_json: bool,
+) -> None:
     """Write all reports of a run again, from its stored results.
 
-    OUT is the folder of an earlier `autograder grade`. Nobody's code is run.
+    OUT is the folder of an earlier `autograder grade`. Nobody's code is run. Merged in are the points and rules of
+    the course file, marks of written answers, and OUT/overrides.csv. Whose total moves is shown.
 
     \b
     autograder report graded
+    autograder report graded --course course.toml
+    autograder report graded --anonymous
+    autograder report graded --marks graded/written.csv
     autograder report graded --feedback hint
     autograder report graded --format md > post.md
     """
+    from autograder.commands._reporting import show_changes, write_all
     from autograder.commands.grade import print_results
-    from autograder.course import load_course
-    from autograder.reports.folder import write_reports
 
-    results = stored_results(out)
-    record = stored_record(out)
-    course = load_course(course_file)
-    shown: Any = feedback or (record.get("settings") or {}).get("feedback") or course.feedback
-    write_reports(results, out, record, stages=course.stages, feedback=shown, course=course.title)
+    stored = stored_results(out)
+    course = course_of(out, course_file)
+    if marks_file is not None:
+        _take(out, stored, course, marks_file)
+    found, moved = write_all(out, stored, stored_record(out), course, feedback=feedback, anonymous=anonymous)
+    results = found.results
     if kind == "md" and not as_json:
         from autograder.reports.markdown import class_markdown
 
         click.echo(class_markdown(results, course.title), nl=False)
     else:
         print_results(results, out, as_json)
+    show_changes(moved, quiet=as_json or kind == "md")
+
+
+def course_of(out: Path, course_file: Path | None) -> Course:
+    """Load the settings that are given, or those that were last used in a folder."""
+    from autograder.course import load_course
+    from autograder.marking.folder import stored_course
+
+    return load_course(course_file) if course_file is not None else stored_course(out) or load_course(None)
+
+
+def _take(out: Path, stored: Sequence[Result], course: Course, path: Path) -> None:
+    """Read a filled sheet into the marks of the run; say what is still empty."""
+    from autograder.commands._reporting import say
+    from autograder.marking.anonymous import read_key
+    from autograder.marking.folder import decided
+    from autograder.marking.marks import write_marks
+    from autograder.marking.sheet import read_sheet
+
+    now = decided(out, stored, course)
+    filled = read_sheet(path, now.answers(), read_key(out))
+    marks = {**now.marks, **{mark.key: mark for mark in filled.marks}}
+    write_marks(out, marks.values())
+    changed = sum(now.marks.get(mark.key) != mark for mark in filled.marks)
+    say(f"{path}: {len(filled.marks)} marks, {changed} of them new or changed.")
+    for line, reason in filled.empty[:_MOST_LINES]:
+        say(f"{path}, line {line}: {reason}; it stays provisional.")
+    if len(filled.empty) > _MOST_LINES:
+        say(f"{path}: {len(filled.empty) - _MOST_LINES} more lines have no points.")
 
 
 def stored_results(out: Path) -> tuple[Any, ...]:

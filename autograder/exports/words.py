@@ -34,13 +34,17 @@ def feedback_text(result: Result, policy: Policy = "full", course: str = "1D SLA
     """
     lines = [f"{visible(course)}: {total(result)}"]
     lines += _wrapped(general(result), "")
+    for each in result.adjustments:
+        lines += _wrapped(visible(each.said), "")
     for stage in result.stages:
         lines += ["", _heading(stage, policy)]
         if stage.status not in _SILENT and policy != "score":
             lines += stage_lines(stage, policy)
     if policy != "score":
+        said_of = [f"Question {question}: {comment}" for question, comment in sorted(result.comments.items())]
         remarks = [remark for stage in result.stages for remark in stage.remarks]
         for title, said in (("About your file (what is named did not run and was skipped):", result.notes),
+                            ("Comments on your written answers:", said_of),
                             ("Remarks, which cost nothing:", remarks)):  # fmt: skip
             if said:
                 lines += ["", title, *(line for one in said for line in _wrapped(f"- {visible(one)}", "  "))]

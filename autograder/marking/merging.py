@@ -69,7 +69,7 @@ def is_current(mark: Mark, answer: str) -> bool:
 def _merged(result: Result, marks: Marks, overrides: Sequence[Override], course: Course, maximum: float) -> Result:
     stages = [repointed(stage, course) for stage in result.stages if stage.name in course.stages]
     adjustments: list[Adjustment] = []
-    awaiting = 0.0
+    awaiting = sum(stage.max_score for stage in stages if stage.status == "awaiting_mark")
     comments: dict[str, str] = {}
     for index, stage in enumerate(stages):
         if stage.name == WRITTEN and result.written:

@@ -54,12 +54,19 @@ def graded_options(function: Function) -> Function:
 
 def stored(out: Path, course_file: Path | None, feedback: str | None) -> Graded:
     """Read the results of a run, and how much of them students may see."""
-    from autograder.commands.report import stored_record, stored_results
-    from autograder.course import load_course
+    from datetime import UTC, datetime
 
-    course = load_course(course_file)
-    policy: Any = feedback or (stored_record(out).get("settings") or {}).get("feedback") or course.feedback
-    return Graded(out, stored_results(out), policy, course.title)
+    from autograder.commands._reporting import say as note_on_stderr
+    from autograder.commands.report import course_of, stored_results
+    from autograder.marking.folder import decided
+    from autograder.marking.lateness import policy_at
+
+    course = course_of(out, course_file)
+    policy: Any = feedback or policy_at(course, datetime.now(UTC))
+    found = decided(out, stored_results(out), course)
+    for note in found.notes:
+        note_on_stderr(note)
+    return Graded(out, found.results, policy, course.title)
 
 
 def read(path: Path, what: str) -> bytes:

@@ -1,0 +1,91 @@
+"""What `grade` and `report` have in common: results merged with what people decided, written as every report."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from autograder.course import Course
+    from autograder.marking.folder import Decided
+    from autograder.reports.changes import Change
+    from autograder.verdicts import Result
+
+
+def write_all(
+    out: Path,
+    stored: Sequence[Result],
+    record: Mapping[str, Any],
+    course: Course,
+    *,
+    feedback: Any = None,
+    anonymous: bool = False,
+    strict: bool = True,
+    complete: bool = True,
+) -> tuple[Decided, list[Change]]:
+    """Merge, write every report into `out`, and keep the settings in force there; return whose total moved.
+
+    `strict` makes an override that changes nothing an error, `complete` says that `stored` is the whole class.
+    """
+    from datetime import UTC, datetime
+
+    from autograder.marking.folder import decided, store_course
+    from autograder.marking.lateness import policy_at
+    from autograder.reports.changes import changes, read_totals, write_changes
+    from autograder.reports.folder import write_reports
+
+    before = read_totals(out / "grades.csv")
+    found = decided(out, stored, course, strict=strict, complete=complete)
+    shown = feedback or policy_at(course, datetime.now(UTC))
+    write_reports(found.results, out, record, stages=course.stages, feedback=shown, course=course.title)
+    _write_answers(out, found, anonymous)
+    store_course(out, course)
+    for note in found.notes:
+        say(note)
+    moved = changes(before, found.results)
+    if moved:
+        write_changes(moved, out)
+    return found, moved
+
+
+def _write_answers(out: Path, found: Decided, anonymous: bool) -> None:
+    """Write written.html and written.csv; a sheet with points that nobody has read back is left alone."""
+    from autograder.marking.anonymous import anonymous_names, read_key
+    from autograder.marking.sheet import FILE, sheet_text, unread
+    from autograder.reports.gradebook import replace_file
+    from autograder.reports.written import written_page
+
+    key = {submission: name for name, submission in read_key(out).items()}
+    names = None
+    if anonymous:
+        names = key = anonymous_names(out, [result.submission for result in found.stored])
+    answers = found.answers(names)
+    if not answers and not (out / FILE).exists():
+        return
+    title, guide = found.course.title, found.course.guide
+    replace_file(out / "written.html", written_page(answers, title, guide, anonymous).encode())
+    if unread(out / FILE, answers, key):
+        say(
+            f"{out / FILE} holds marks that are not read yet and was not written over; "
+            f"take them: autograder report {out} --marks {out / FILE}"
+        )
+    else:
+        replace_file(out / FILE, sheet_text(answers).encode())
+
+
+def say(note: str) -> None:
+    """Put a note on stderr, safely."""
+    from autograder.reports.wording import visible
+
+    click.echo(f"autograder: {visible(note)}", err=True)
+
+
+def show_changes(moved: Sequence[Change], quiet: bool) -> None:
+    """Say whose total moved: on stdout, or on stderr where stdout is data."""
+    from autograder.reports.changes import changes_text
+
+    if moved:
+        click.echo(f"\n{changes_text(moved)}", err=quiet)
