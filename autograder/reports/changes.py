@@ -57,8 +57,8 @@ def changes_text(found: Sequence[Change]) -> str:
     """
     up = sum(_by(one) > 0 for one in found)
     down = sum(_by(one) < 0 for one in found)
-    lines = [f"{len(found)} total{'' if len(found) == 1 else 's'} {'has' if len(found) == 1 else 'have'} changed: "
-             f"{up} up, {down} down"]  # fmt: skip
+    noun = "1 total has" if len(found) == 1 else f"{len(found)} totals have"
+    lines = [f"{noun} changed: {up} up, {down} down"]
     wide = max((len(visible(one.submission, 28)) for one in found), default=0)
     for one in sorted(found, key=lambda one: (-abs(_by(one)), one.submission))[:_MOST_LINES]:
         by = _by(one)
