@@ -5,6 +5,8 @@ VENV := .venv
 PY := $(VENV)/bin/python
 PIP := $(PY) -m pip --disable-pip-version-check --no-input -q
 UV_VERSION := 0.13.9
+FRAMES ?= 1000000
+GUIDED_SECONDS ?= 60
 
 # What .venv was made for; when it was copied from elsewhere or for another Python, it is made anew.
 PLACE := $(CURDIR) $(PYTHON)
@@ -19,7 +21,7 @@ help:
 	@echo "make demo    grade a small sample class, print the table and say where to look"
 	@echo "make test    check format, lint and types, then run all tests"
 	@echo "make bench   measure the speed of the grader on a class of 200"
-	@echo "make fuzz    run the property tests on many fresh random examples"
+	@echo "make fuzz    throw a million random frames at the grader, then many fresh examples at the properties"
 	@echo "make lock    write requirements.lock anew from pyproject.toml"
 	@echo "make clean   remove everything that make made"
 	@echo ""
@@ -43,8 +45,12 @@ bench: $(VENV)/ready
 	@$(PY) -m tests.benchmarks
 
 fuzz: $(VENV)/ready
-	@echo "--- property tests, fresh examples"
-	@$(PY) -m pytest -q --hypothesis-profile=fuzz -m "not slow"
+	@echo "--- frames: random"
+	@$(PY) tests/fuzz/frames.py --frames $(FRAMES)
+	@echo "--- frames: guided by coverage"
+	@$(PY) tests/fuzz/guided.py --seconds $(GUIDED_SECONDS)
+	@echo "--- property tests: fresh examples"
+	@$(PY) -m pytest -q --hypothesis-profile=fuzz -m "hypothesis and not slow"
 
 lock: $(VENV)/ready
 	@echo "--- requirements.lock"

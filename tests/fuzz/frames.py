@@ -53,7 +53,7 @@ _ODD = [
     -(2**63),
 ]
 _SIDES = (2).to_bytes(8, "little") * 3
-_GOOD: list[list[Any]] = [
+GOOD: list[list[Any]] = [
     ["results", 1, bytes(3), bytes(3), b"\1\1\1", _SIDES, bytes(48), {}, -1],
     ["results", 1, b"\1\0\0", bytes(3), b"\0\1\1", _SIDES[:16], bytes(32), {0: "ValueError: x"}, 2],
     ["loaded", 1, ["f", "g"], [["remark", 0, 3, "error", "x"]], ["answers", [2, 2], bytes(32), "a", None, "text", ""]],
@@ -86,7 +86,7 @@ def value(draw: random.Random, depth: int = 0) -> Any:
 
 def frame(draw: random.Random) -> bytes:
     """Draw a frame: a good one with a field or some bytes changed, cut, repeated, or nothing but noise."""
-    data = list(draw.choice(_GOOD))
+    data = list(draw.choice(GOOD))
     for _ in range(draw.randrange(3)):
         data[draw.randrange(len(data))] = value(draw)
     if draw.random() < 0.1:
