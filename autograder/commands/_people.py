@@ -106,8 +106,10 @@ def _note(found: Match, has_variant: bool, variants: bool) -> str:
 
 
 def _flag(remarks: Sequence[str]) -> str:
+    """Make a sentence; an id that begins it keeps its small letter."""
     words = "; ".join(remarks)
-    return f"{words[0].upper()}{words[1:]}." if words else ""
+    start = words[:1].upper() if words.startswith(("the ", "it ")) else words[:1]
+    return f"{start}{words[1:]}." if words else ""
 
 
 def report_missing(people: People, assigned: Mapping[str, Assigned], out: Path) -> None:

@@ -86,7 +86,7 @@ def _is_untouched(entry: Entry) -> bool:
         data = entry.load(_LARGEST_STUB)
     except RejectedUpload:
         return False
-    return CORE <= set(_OPEN.findall(data))
+    return CORE.issubset(_OPEN.findall(data))
 
 
 def without_companions(entries: Sequence[Entry]) -> list[Entry]:
