@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from autograder.commands._class import Function, secret_options
+
 if TYPE_CHECKING:
     from autograder.course import Course
     from autograder.engine.run import Assigned
@@ -22,6 +24,28 @@ if TYPE_CHECKING:
 
 MISSING = "missing.csv"
 _LISTED = 5
+
+
+def people_options(function: Function) -> Function:
+    """Add what says whose each submission is, and on which numbers it is judged."""
+    for option in (
+        secret_options(required=False),
+        click.option(
+            "--ledger",
+            type=click.Path(path_type=Path),
+            metavar="FILE",
+            help="variants.csv of the release: the numbers that answers are judged on. "
+            "[default: drawn again from roster, term and secret]",
+        ),
+        click.option(
+            "--roster",
+            type=click.Path(path_type=Path),
+            metavar="CSV",
+            help="The class: says whose each submission is, and who has handed in nothing.",
+        ),
+    ):
+        function = option(function)
+    return function
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import click
 
-from autograder.commands._class import secret_options
+from autograder.commands._people import people_options
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -51,20 +51,7 @@ POLICIES = ("full", "hint", "score")
     help="Which cases are drawn: the same seed gives the same marks. "
     "[default: the course's, else derived from secret and term, else 0]",
 )
-@click.option(
-    "--roster",
-    type=click.Path(path_type=Path),
-    metavar="CSV",
-    help="The class: says whose each submission is, and who has handed in nothing.",
-)
-@click.option(
-    "--ledger",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="variants.csv of the release: the numbers that answers are judged on. "
-    "[default: drawn again from roster, term and secret]",
-)
-@secret_options(required=False)
+@people_options
 @click.option(
     "--examples", type=click.IntRange(1), metavar="N", help="Cases drawn a stage. [default: the course's, or 200]"
 )
