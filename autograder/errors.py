@@ -22,3 +22,7 @@ class RejectedUpload(AutograderError):
 
 class SandboxError(AutograderError):
     """The confinement could not be set up or broke: the grader's fault, never the student's."""
+
+
+class SandboxLost(SandboxError):
+    """The fork server is gone, as after a kill: the same work in a new one may well succeed."""

@@ -10,7 +10,7 @@ import secrets
 from collections.abc import Collection
 from types import TracebackType
 
-from autograder.errors import SandboxError
+from autograder.errors import SandboxError, SandboxLost
 from autograder.sandbox import frames
 from autograder.sandbox.channel import Budget, Ended
 from autograder.sandbox.frames import Inputs, Kind, Outcome, Source
@@ -89,7 +89,8 @@ class Sandbox:
             channel.reply(frames.LOAD_BOUND, 10.0, nonce=0)
             report = channel.reply(frames.LOAD_BOUND, 10.0)
         except Ended as end:
-            raise SandboxError(f"The canary of the sandbox did not answer ({end.reason}).") from end
+            kind = SandboxLost if self.server.killed else SandboxError
+            raise kind(f"The canary of the sandbox did not answer ({end.reason}).") from end
         finally:
             channel.close()
             self.server.kill(pid)

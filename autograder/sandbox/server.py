@@ -18,7 +18,7 @@ from typing import Literal
 import msgspec
 import numpy as np
 
-from autograder.errors import SandboxError
+from autograder.errors import SandboxError, SandboxLost
 from autograder.sandbox import forkserver, frames
 from autograder.sandbox.channel import Budget, Channel
 
@@ -123,7 +123,8 @@ class Server:
             (length,) = frames.HEADER.unpack(self._receive(frames.HEADER.size))
             ready = frames.decode(self._receive(length), frames.Ready)
         except (OSError, msgspec.MsgspecError) as error:
-            raise SandboxError(f"The fork server did not start: {self._last_words() or error}") from error
+            words = f"The fork server did not start: {self._last_words() or error}"
+            raise (SandboxLost if self.killed else SandboxError)(words) from error
         if ready.error:
             raise SandboxError(f"The fork server did not start: {ready.error}")
         self._control.settimeout(_REPLY_SECONDS)
@@ -133,6 +134,13 @@ class Server:
     def pid(self) -> int:
         """Process id of the fork server."""
         return self._process.pid
+
+    @property
+    def killed(self) -> bool:
+        """Whether a signal has ended the fork server."""
+        with suppress(subprocess.TimeoutExpired):  # its end of the channel closes a moment before it is gone
+            self._process.wait(timeout=0.2)
+        return (self._process.returncode or 0) < 0
 
     def fork(self, budget: Budget, output_bytes: int) -> tuple[Channel, int]:
         """Fork a child; it locks itself before it reads anything."""
@@ -186,13 +194,13 @@ class Server:
         try:
             self._control.sendmsg([forkserver.MESSAGE.pack(operation, pid)], ancillary)
         except OSError as error:
-            raise SandboxError(f"The fork server has gone: {self._last_words() or error}") from error
+            raise SandboxLost(f"The fork server has gone: {self._last_words() or error}") from error
 
     def _answer(self, count: int) -> bytes:
         try:
             return self._receive(count)
         except OSError as error:
-            raise SandboxError(f"The fork server does not answer: {self._last_words() or error}") from error
+            raise SandboxLost(f"The fork server does not answer: {self._last_words() or error}") from error
 
     def _receive(self, count: int) -> bytes:
         data = b""
