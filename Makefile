@@ -14,7 +14,7 @@ ifneq ($(shell cat $(VENV)/made-for 2>/dev/null),$(PLACE))
 ANEW := anew
 endif
 
-.PHONY: help demo test bench fuzz lock clean anew
+.PHONY: help demo test bench fuzz mutants lock clean anew
 .DELETE_ON_ERROR:
 
 help:
@@ -22,6 +22,8 @@ help:
 	@echo "make test    check format, lint and types, then run all tests"
 	@echo "make bench   measure the speed of the grader on a class of 200"
 	@echo "make fuzz    throw a million random frames at the grader, then many fresh examples at the properties"
+	@echo "make mutants change the reference everywhere, one place at a time: does the exam notice?"
+	@echo "make hostile print which attacks of the hostile corpus get through, with the locks and without"
 	@echo "make lock    write requirements.lock anew from pyproject.toml"
 	@echo "make clean   remove everything that make made"
 	@echo ""
@@ -51,6 +53,12 @@ fuzz: $(VENV)/ready
 	@$(PY) tests/fuzz/guided.py --seconds $(GUIDED_SECONDS)
 	@echo "--- property tests: fresh examples"
 	@$(PY) -m pytest -q --hypothesis-profile=fuzz -m "hypothesis and not slow"
+
+mutants: $(VENV)/ready
+	@$(PY) -m tests.mutation
+
+hostile: $(VENV)/ready
+	@$(PY) -m tests.hostile.table
 
 lock: $(VENV)/ready
 	@echo "--- requirements.lock"
