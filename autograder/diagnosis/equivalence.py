@@ -6,6 +6,7 @@ turns the student's f, J and Omega into the expected ones.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,10 +43,13 @@ class Rows:
     omega: Array
 
 
-def convention(given: list[Rows], expected: list[Rows]) -> Convention | None:
-    """Find the convention that explains all cases; None where one case has none, or nothing differs."""
+def convention(pairs: Iterable[tuple[Rows, Rows]]) -> Convention | None:
+    """Find the convention that explains all cases, each given and expected; None where there is none.
+
+    None as well where nothing differs. The first case without a match ends the search.
+    """
     reordered = turned = False
-    for one, other in zip(given, expected, strict=True):
+    for one, other in pairs:
         match = _match(one, other)
         if match is None:
             return None

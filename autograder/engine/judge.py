@@ -46,6 +46,7 @@ class Judge:
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
         self._recognisers: dict[str, Recogniser] = {}
+        self._rows: list[Rows] = []
 
     def judge(self, collected: Collected) -> tuple[StageVerdict, ...]:
         """Judge every stage of one submission."""
@@ -124,8 +125,6 @@ class Judge:
 
     def _convention(self, collected: Collected) -> Convention | None:
         """Find one convention that explains f, J and Omega of every case, where one of them is not as expected."""
-        given: list[Rows] = []
-        expected: list[Rows] = []
         stages = [self.plan.stage(name) for name in _INTERCHANGEABLE if self.plan.has(name)]
         if len(stages) != len(_INTERCHANGEABLE):
             return None
@@ -134,15 +133,24 @@ class Judge:
         }
         if all(reply is not None and reply.passed for found in replies.values() for reply in found):
             return None
+        calls = []
         for position, task in enumerate(self.plan.tasks_of(stages[0])):
             parts = [replies[name][position] for name in _INTERCHANGEABLE]
             outputs = [part.outputs for part in parts if part is not None and isinstance(part.outputs, Outputs)]
-            calls = follow.own_calls(task.cases, [outputs[1], outputs[2], outputs[0]]) if len(outputs) == 3 else None
-            if calls is None:
+            own = follow.own_calls(task.cases, [outputs[1], outputs[2], outputs[0]]) if len(outputs) == 3 else None
+            if own is None:
                 return None
-            given += [Rows(f, J, omega) for J, omega, f in calls]
-            expected += [Rows(*(stage.expected(*stage.calls(case)[0])[0] for stage in stages)) for case in task.cases]
-        return convention(given, expected)
+            calls += own
+        given = (Rows(f, J, omega) for J, omega, f in calls)
+        return convention(zip(given, self._expected_rows(stages), strict=True))
+
+    def _expected_rows(self, stages: list[Stage]) -> list[Rows]:
+        """Return f, J and Omega of every case of the graphs, worked out once."""
+        if not self._rows:
+            for task in self.plan.tasks_of(stages[0]):
+                for case in task.cases:
+                    self._rows.append(Rows(*(stage.expected(*stage.calls(case)[0])[0] for stage in stages)))
+        return self._rows
 
 
 def _absent(task: Task) -> Reply:
