@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-# Both are typed in the folder of this repository, with the uploads in a folder `uploads` below it.
+# All are typed in the folder of this repository, where the Dockerfile is, with the uploads in `uploads` below it.
 CONTAINER = (
     "docker build -t slam1d-homework .",
-    'docker run --rm --network none -v "{here}:/course" -w /course slam1d-homework grade uploads -o graded',
+    'docker run --rm --network none {user}-v "{here}:/course" slam1d-homework grade uploads -o graded',
 )
 WSL = (
     "wsl --install -d Ubuntu",
-    'wsl -d Ubuntu -- sudo sh -c "apt-get update && apt-get install -y make python3-venv"',
+    "wsl -d Ubuntu -u root -- apt-get update",
+    "wsl -d Ubuntu -u root -- apt-get install -y make python3-venv",
     "wsl -d Ubuntu -- make demo",
     "wsl -d Ubuntu -- .venv/bin/autograder grade uploads -o graded",
 )
@@ -51,7 +52,7 @@ def _elsewhere(system: str, machine: str) -> list[str]:
         return [
             "Grade in WSL2. In PowerShell, in the folder of this repository:",
             *_indented(WSL),
-            "Or in a Linux container:",
+            "Or in a container:",
             *_indented(CONTAINER, here="${PWD}"),
         ]
     if system == "Linux" and machine not in PROCESSORS:
@@ -59,7 +60,7 @@ def _elsewhere(system: str, machine: str) -> list[str]:
     if system == "Linux":
         return [
             "Grade where the kernel has system call filters (seccomp): any Linux of the last ten years, or a",
-            "container on it whose security profile is not switched to one that refuses them:",
+            "container on it, with the profile that Docker gives it. In the folder of this repository:",
             *_indented(CONTAINER, here="$PWD"),
         ]
     return [
@@ -69,4 +70,5 @@ def _elsewhere(system: str, machine: str) -> list[str]:
 
 
 def _indented(commands: tuple[str, ...], here: str = "") -> list[str]:
-    return [f"  {command.replace('{here}', here)}" for command in commands]
+    user = '--user "$(id -u):$(id -g)" ' if here == "$PWD" else ""  # else the results would belong to root
+    return [f"  {command.replace('{here}', here).replace('{user}', user)}" for command in commands]

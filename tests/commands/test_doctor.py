@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from autograder.commands._remedy import what_to_do
+from autograder.commands._remedy import CONTAINER, what_to_do
 from autograder.errors import SandboxError
 from autograder.sandbox import host, refusals, selftest
 from autograder.sandbox.refusals import Part
@@ -80,7 +80,7 @@ def test_without_a_lock_it_gives_the_command(run: Callable[..., Ended], monkeypa
     assert "confinement  none: NOT CONFINED" in text
     assert "not tried" in text
     assert "  docker build -t " in text
-    assert "  docker run --rm --network none -v " in text
+    assert "  docker run --rm --network none --user " in text
 
 
 @linux
@@ -113,6 +113,16 @@ def test_every_system_has_its_command(system: str, machine: str, words: list[str
     text = "\n".join(what_to_do("none", "seccomp", system, machine))
     assert all(word in text for word in [*words, "--allow-unconfined"]), text
     assert "{" not in text.replace("${PWD}", "")
+
+
+def test_the_container_is_what_the_dockerfile_makes() -> None:
+    """The printed command gives the image what its entry point and its folder expect."""
+    made = (Path(__file__).resolve().parents[2] / "Dockerfile").read_text()
+    build, run = CONTAINER
+    assert 'ENTRYPOINT ["autograder"]' in made
+    assert "WORKDIR /course" in made
+    assert ':/course"' in run
+    assert f"{build.split()[3]} grade uploads -o graded" in run
 
 
 @pytest.mark.parametrize(("system", "word"), [("Windows", "wsl --install"), ("Linux", "BROKEN")])
