@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -99,6 +99,27 @@ def write(folder: Path, files: dict[str, bytes], notes: Iterable[str]) -> None:
     for name, data in files.items():
         write_whole(folder / name, data)
     say(notes, [folder / name for name in files])
+
+
+def write_new(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write a tree of files of which none may be there already."""
+    from autograder.errors import UsageError
+
+    there = [folder / name for name in files if (folder / name).exists()]
+    if there:
+        raise UsageError(f"{there[0]} is there already and was not changed; choose another folder with -o.")
+    write_tree(folder, files)
+    say([], [folder / name for name in files])
+
+
+def write_tree(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write a tree of files, each in one stroke."""
+    from autograder.commands.grade import make_folder
+    from autograder.writing import write_whole
+
+    for name, data in files.items():
+        make_folder((folder / name).parent)
+        write_whole(folder / name, data)
 
 
 def say(notes: Iterable[str], written: Iterable[Path]) -> None:

@@ -34,31 +34,22 @@ def command(course_file: Path | None, assignment: str, out: Path | None, folder:
     autograder grade slam-course/submitted -o graded
     autograder export nbgrader --feedback-of graded -o slam-course
     """
-    from autograder.commands.export._shared import say, stored
+    from autograder.commands.export._shared import say, stored, write_new, write_tree
     from autograder.course import load_course
     from autograder.errors import UsageError
     from autograder.exports.bundle import page_of
     from autograder.exports.nbgrader.course import course_files
     from autograder.exports.nbgrader.feedback import feedback_tree
     from autograder.problems.problem import worked_problem
-    from autograder.writing import write_whole
 
     if not assignment or set(assignment) & set("+/\\") or assignment.startswith("."):
         raise UsageError(f"--assignment {assignment!r}: nbgrader takes no name with + or /; choose another.")
-    if out is not None:
-        run = stored(out, course_file, None)
-        pages = {one.submission: page_of(out, one.submission) for one in run.results}
-        files = feedback_tree(run.results, pages, assignment)
-    else:
+    if out is None:
         course = load_course(course_file)
         files = course_files(course.points, course.stages, worked_problem(), assignment=assignment, course=course.title)
-        mine = [folder / name for name in files if (folder / name).exists()]
-        if mine:
-            raise UsageError(f"{mine[0]} is there already and was not changed; choose another folder with -o.")
-    for name, data in files.items():
-        try:
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise UsageError(f"{folder} cannot be used ({error.strerror}); choose another folder with -o.") from None
-        write_whole(folder / name, data)
-    say([], [folder / name for name in (list(files)[:1] if out is not None else files)])
+        write_new(folder, files)
+    else:
+        run = stored(out, course_file, None)
+        pages = {one.submission: page_of(out, one.submission) for one in run.results}
+        write_tree(folder, feedback_tree(run.results, pages, assignment))
+        say([], [folder / "feedback"])
