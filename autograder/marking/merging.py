@@ -114,9 +114,12 @@ def _merged(result: Result, marks: Marks, overrides: Sequence[Override], course:
 def _marked(
     result: Result, stage: StageVerdict, marks: Marks, course: Course
 ) -> tuple[StageVerdict, float, dict[str, str]]:
-    """Put the reader's marks into the stage; return it with the points that still wait and the comments."""
+    """Put the reader's marks into the stage; return it with the points that still wait and the comments.
+
+    As long as nobody has read anything the whole stage waits, an answer that is not there included.
+    """
     earned = waiting = 0.0
-    told, comments = [], {}
+    told, comments, read = [], {}, False
     for question, most in question_maxima(course, stage.max_score).items():
         answer = result.written.get(question, "")
         mark = marks.get((result.submission, question))
@@ -129,10 +132,11 @@ def _marked(
             told.append(f"question {question}: the answer has changed since it was marked")
         else:
             points = mark.points if not mark.of else mark.points * most / mark.of
-            earned += points
+            earned, read = earned + points, True
             told.append(f"question {question}: {round(points, 6):g} of {most:g}")
             if mark.comment:
                 comments[question] = mark.comment
+    waiting = stage.max_score if waiting and not read else waiting
     earned = round(earned, 6)
     status: StageStatus
     if waiting:

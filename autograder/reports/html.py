@@ -44,9 +44,10 @@ def _environment() -> Environment:
     environment.filters.update(lines=_lines, points=points, number=number, visible=visible, plural=plural)
     environment.globals.update(
         style=_asset("style.css"),
-        style_hash=_hash("style.css"),
+        style_hash=hash_of("style.css"),
         script=_asset("table.js"),
-        script_hash=_hash("table.js"),
+        desk_script=_asset("desk.js"),
+        script_hash=hash_of("table.js"),
         marks=MARKS,
         bar=charts.bar,
     )
@@ -66,6 +67,7 @@ def _asset(name: str) -> Markup:
 
 
 @cache
-def _hash(name: str) -> Markup:
+def hash_of(name: str) -> Markup:
+    """Return the hash of a style sheet or script of ours, as a policy names it."""
     digest = hashlib.sha256(_asset(name).encode()).digest()
     return Markup("'sha256-" + base64.b64encode(digest).decode() + "'")

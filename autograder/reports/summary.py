@@ -106,7 +106,7 @@ def troubles(results: Iterable[Result]) -> list[Trouble]:
     for result in results:
         for stage in result.stages:
             order.setdefault(stage.name, len(order))
-            if stage.status not in FULL and not is_consequence(stage):
+            if stage.status not in FULL and not is_consequence(stage) and not _is_read(stage):
                 key = (stage.name, stage.slip, _kind(stage))
                 words.setdefault(key[2], reason(stage))
                 found.setdefault(key, []).append(result.submission)
@@ -131,6 +131,11 @@ def is_consequence(stage: StageVerdict) -> bool:
     """Tell a stage that is wrong only because an earlier one is: its failed checks were paid for in part."""
     failed = [check for check in stage.checks if not check.passed]
     return bool(failed) and all(check.points > 0 for check in failed)
+
+
+def _is_read(stage: StageVerdict) -> bool:
+    """Tell a stage that a person marked: its reasons are comments, one for each student."""
+    return stage.name == "written" and stage.status != "missing"
 
 
 def reason(stage: StageVerdict) -> str:

@@ -112,8 +112,8 @@ class Browser:
         message: dict[str, Any] = json.loads(data)
         return message
 
-    def open(self, path: Path, *, width: int = 1200, dark: bool = False, script: bool = True) -> None:
-        """Open a file at a width, in light or dark mode, with or without its script; wait until it is loaded."""
+    def open(self, path: Path | str, *, width: int = 1200, dark: bool = False, script: bool = True) -> None:
+        """Open a file or an address at a width, in light or dark mode, with or without its script; wait until it is loaded."""
         self.send(
             "Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600
         )
@@ -121,7 +121,7 @@ class Browser:
         self.send("Emulation.setEmulatedMedia", features=[scheme])
         self.send("Emulation.setScriptExecutionDisabled", value=not script)
         self._navigate("about:blank")
-        self._navigate(path.as_uri())
+        self._navigate(path if isinstance(path, str) else path.as_uri())
 
     def _navigate(self, url: str) -> None:
         self.events.clear()
@@ -141,6 +141,19 @@ class Browser:
         for character in text:
             self.send("Input.dispatchKeyEvent", type="keyDown", text=character, key=character)
             self.send("Input.dispatchKeyEvent", type="keyUp", key=character)
+
+    def wait_for(self, expression: str) -> None:
+        """Wait until JavaScript says true, also across a new page."""
+        deadline = time.monotonic() + _PATIENCE
+        while True:
+            try:
+                if self.run(expression):
+                    return
+            except RuntimeError:
+                pass  # the old page is gone, the new one not yet there
+            if time.monotonic() > deadline:
+                raise TimeoutError(expression)
+            time.sleep(0.02)
 
     def complaints(self) -> list[str]:
         """Return errors and warnings since the page was opened: the console's, the policy's, uncaught exceptions."""
