@@ -63,7 +63,7 @@ def draw_distinct(strategy: SearchStrategy[Case], count: int, name: str, known: 
         if missing <= 0:
             break
         number = int.from_bytes(hashlib.sha256(f"{name}/{attempt}".encode()).digest()[:8], "big")
-        for case in _generate(strategy, missing + missing // 4 + 2, number):
+        for case in _generate(strategy, missing + missing // 8 + 2, number):
             identity = key(case)
             if identity not in refused and len(found) < count:
                 found.setdefault(identity, case)

@@ -97,7 +97,7 @@ def test_no_case_gives_another_stage_away(drawn):
 
 def test_draws_do_not_depend_on_literals_of_local_modules():
     """Strategies draw integers within +-99 only, which Hypothesis never replaces by literals that it finds in code."""
-    bounds = re.findall(r"st\.integers\(([^()]*)\)", inspect.getsource(strategies))
+    bounds = re.findall(r"integers\(([^()]*)\)", inspect.getsource(strategies))
     assert bounds
     for text in bounds:
         assert all(abs(int(number)) <= 99 for number in re.findall(r"-?\d+", text))
