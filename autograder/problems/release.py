@@ -220,7 +220,7 @@ def _zipped(student_id: str, files: Mapping[str, bytes]) -> bytes:
             entry = zipfile.ZipInfo(f"{student_id}/{name}", ZIP_TIME)
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = 0o644 << 16
-            archive.writestr(entry, data)
+            archive.writestr(entry, data, compresslevel=1)  # a third of the time, and a fifth more bytes
     return buffer.getvalue()
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import re
+import textwrap
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import nbformat
@@ -21,6 +23,7 @@ _KERNEL = {
     "kernelspec": {"display_name": "Python 3", "language": "python", "name": "python3"},
     "language_info": {"name": "python"},
 }
+_FORMAT = {"nbformat": 4, "nbformat_minor": 5}
 
 
 def render_notebook(template: str, metadata: Mapping[str, Any] | None = None, **values: Any) -> str:
@@ -35,9 +38,11 @@ def render_notebook(template: str, metadata: Mapping[str, Any] | None = None, **
     **values
         What the template names.
     """
-    # A class is a thousand notebooks, and validating one takes longer than all the rest: tests validate instead.
-    content = _content(fill(template, **values)) | {"metadata": {**_KERNEL, **(metadata or {})}}
-    return json.dumps(content, sort_keys=True, indent=1, ensure_ascii=False, separators=(",", ": ")) + "\n"
+    # A class is a thousand notebooks. Validating one takes longer than all the rest, so tests validate instead;
+    # and most cells are the same in all of them, so each is written once.
+    cells = ",\n".join(_cell_text(*part) for part in _parts(fill(template, **values)))
+    empty = {"cells": [], "metadata": {**_KERNEL, **(metadata or {})}, **_FORMAT}
+    return _json(empty).replace('"cells": []', f'"cells": [\n{cells}\n ]', 1) + "\n"
 
 
 def build_notebook(text: str) -> nbformat.NotebookNode:
@@ -65,27 +70,37 @@ def build_notebook(text: str) -> nbformat.NotebookNode:
     >>> [(cell.id, cell.source) for cell in notebook.cells]
     [('title', '# Words'), ('sum', '1 + 1')]
     """
-    notebook: nbformat.NotebookNode = nbformat.from_dict(_content(text))  # type: ignore[no-untyped-call]  # nbformat has no types
+    content = {"cells": [_cell(*part) for part in _parts(text)], "metadata": _KERNEL, **_FORMAT}
+    notebook: nbformat.NotebookNode = nbformat.from_dict(content)  # type: ignore[no-untyped-call]  # nbformat has no types
     for cell in notebook.cells:
         cell.source = "".join(cell.source)
     nbformat.validate(notebook)
     return notebook
 
 
-def _content(text: str) -> dict[str, Any]:
-    """Lay out a notebook as it stands in a file, sources as lists of lines."""
+def _parts(text: str) -> list[tuple[str, str, str]]:
+    """Split the text of cells: kind, name and source of each."""
     before, *parts = _HEAD.split(text)
     stray = [line for part in parts[2::3] for line in part.splitlines() if line.startswith("%% ")]
     if stray:
         raise ValueError(f"a head must read `%% kind name`, the name in small letters and dashes, got {stray[0]!r}")
     if before.strip():
         raise ValueError(f"a template must begin with a line `%% kind name`, got {before.strip()[:40]!r}")
-    cells = [_cell(*part) for part in zip(parts[0::3], parts[1::3], parts[2::3], strict=True)]
-    names = [cell["id"] for cell in cells]
+    names = parts[1::3]
     twice = {name for name in names if names.count(name) > 1}
     if twice:
         raise ValueError(f"every cell must have a name of its own, got {sorted(twice)} more than once")
-    return {"cells": cells, "metadata": _KERNEL, "nbformat": 4, "nbformat_minor": 5}
+    return list(zip(parts[0::3], names, parts[2::3], strict=True))
+
+
+@lru_cache(maxsize=256)
+def _cell_text(kind: str, name: str, source: str) -> str:
+    """Write a cell as it stands in a file."""
+    return textwrap.indent(_json(_cell(kind, name, source)), "  ")
+
+
+def _json(content: Any) -> str:
+    return json.dumps(content, sort_keys=True, indent=1, ensure_ascii=False, separators=(",", ": "))
 
 
 def _cell(kind: str, name: str, source: str) -> dict[str, Any]:
