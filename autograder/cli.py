@@ -20,8 +20,8 @@ from autograder.errors import AutograderError
 
 DONE, DEFECT, USAGE, OUR_FAULT, INTERRUPTED = 0, 1, 2, 3, 130
 
-# In the order of a course: what a newcomer types first stands first. Others follow by name.
-_FIRST = ("demo", "init", "grade", "report", "doctor")
+# In the order of a course, from a first look to the exported marks. Others follow by name.
+_FIRST = ("demo", "doctor", "init", "release", "variant", "grade", "mark", "report", "diff", "export", "audit")
 
 
 class Commands(click.Group):
@@ -31,6 +31,12 @@ class Commands(click.Group):
         """Name every command, the everyday ones first."""
         found = {module.name for module in pkgutil.iter_modules(commands.__path__) if not module.name.startswith("_")}
         return [name for name in _FIRST if name in found] + sorted(found.difference(_FIRST))
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List every command with its whole first sentence; click would cut it off."""
+        commands = [(name, self.get_command(ctx, name)) for name in self.list_commands(ctx)]
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, found.get_short_help_str(500)) for name, found in commands if found])
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Import one command by its name."""
@@ -51,18 +57,18 @@ class Commands(click.Group):
 
 @click.group(cls=Commands, no_args_is_help=True, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="autograder")
-@click.option("--debug", is_flag=True, help="Show the traceback of an unexpected error.")
+@click.option("--debug", is_flag=True, help="Before the command: show the traceback of an unexpected error.")
 @click.pass_context
 def cli(ctx: click.Context, debug: bool) -> None:
     """Grade a class of 1D SLAM homework: safely, fast, and with reasons.
 
     \b
     autograder demo                      the whole story on a small class
+    autograder doctor                    is this machine ready?
     autograder init course.toml          a settings file to edit
     autograder grade uploads/ -o graded  grade a folder of .py and .ipynb files
-    autograder doctor                    is this machine ready?
 
-    A command tells more with --help: autograder grade --help.
+    Each command shows its options and examples with --help: autograder grade --help.
     """
     ctx.obj = debug
 

@@ -33,10 +33,19 @@ _OURS = ".demo"  # marks a folder that the demo wrote and may write again
     show_default=True,
     help="Folder to write into; a second run goes on with it.",
 )
-@click.option("--workers", type=click.IntRange(1), metavar="N", help="Processes at a time. [default: all cores]")
-@click.option("--allow-unconfined", is_flag=True, help="Go on where this machine gives no confinement.")
+@click.option(
+    "--workers", type=click.IntRange(1), metavar="N", help="Submissions graded at a time. [default: one a core]"
+)
+@click.option(
+    "--allow-unconfined",
+    is_flag=True,
+    help="Go on where `autograder doctor` finds no lock; one of the class tries to read and write files.",
+)
 def command(out: Path, workers: int | None, allow_unconfined: bool) -> int:
     """Show the homework and grade a small class.
+
+    Copies the homework and a made-up class into DIR, grades the class, explains one mistake, and
+    says where to look. It needs nothing and changes nothing else.
 
     \b
     autograder demo

@@ -21,16 +21,24 @@ Say = Callable[[str], None]
 
 @click.command()
 @click.option(
-    "--course", "course_file", type=click.Path(path_type=Path), metavar="FILE", help="Take limits and demands from it."
+    "--course",
+    "course_file",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Course whose limits are tried and whose demands count. [default: what `autograder init` writes]",
 )
 @click.option(
     "--time-limit",
     type=click.FloatRange(0, 600, min_open=True),
     metavar="SECONDS",
-    help="Try this limit instead of the course's.",
+    help="Computing time to try. [default: the course's, or 2]",
 )
-@click.option("--memory", type=click.IntRange(64, 65_536), metavar="MIB", help="Likewise.")
-@click.option("--output-limit", type=click.IntRange(1, 1024), metavar="MIB", help="Likewise.")
+@click.option(
+    "--memory", type=click.IntRange(64, 65_536), metavar="MIB", help="Memory to try. [default: the course's, or 512]"
+)
+@click.option(
+    "--output-limit", type=click.IntRange(1, 1024), metavar="MIB", help="Output to try. [default: the course's, or 16]"
+)
 @click.option(
     "--trace", is_flag=True, help="Also run much of numpy in the lock, and name every system call that is refused."
 )

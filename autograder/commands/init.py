@@ -12,7 +12,8 @@ import click
 def command(course: Path) -> None:
     """Write a commented course file: points, stages, limits, feedback.
 
-    Every setting in it is the default, so it changes nothing until you edit it.
+    Every setting in it is the default, so it changes nothing until you edit it. COURSE is the file
+    to write, course.toml where none is named; a file that is there already is left alone.
 
     \b
     autograder init                      writes course.toml here

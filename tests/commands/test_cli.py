@@ -48,7 +48,7 @@ def test_help_shows_commands_that_work(run: Callable[..., Ended]) -> None:
     code, out, _ = run("--help")
     assert code == 0
     commands = cli.cli.list_commands(None)
-    assert commands[:2] == ["demo", "init"]
+    assert commands[:3] == ["demo", "doctor", "init"]
     for name in commands:
         code, text, _ = run(name, "--help")
         assert code == 0
@@ -71,7 +71,7 @@ def test_no_arguments_show_the_help(run: Callable[..., Ended]) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["grad"], ["'grad'", "demo, init, grade"]),
+        (["grad"], ["'grad'", "demo, doctor, init"]),
         (["grade"], ["PATH", "autograder grade --help"]),
         (["grade", "x"], ["-o", "autograder grade --help"]),
         (["grade", "x", "-o", "y", "--sed", "1"], ["--sed", "--seed"]),
@@ -113,3 +113,10 @@ def test_a_reader_that_leaves_early_is_no_error(tmp_path: Path) -> None:
     code = f"{sys.executable} -m autograder grade --help | head -1"
     shown = subprocess.run(["bash", "-c", code], capture_output=True, text=True, check=True)
     assert shown.stderr == ""
+
+
+def test_the_list_of_commands_says_whole_sentences(run: Callable[..., Ended]) -> None:
+    """A first sentence that is too long for a line goes on in the next; nothing ends in dots."""
+    listed = run("--help")[1].split("Commands:")[1]
+    assert "..." not in listed
+    assert all(name in listed for name in cli.cli.list_commands(None))
