@@ -59,10 +59,8 @@ class _Handler(BaseHTTPRequestHandler):
         if rest is None:
             return
         pile = self.server.pile
-        index = pile.next_waiting(-1) if not rest else int(rest) - 1 if rest.isascii() and rest.isdecimal() else -1
-        if len(pile) and not 0 <= index < len(pile):
-            index = 0 if not rest else -1
-        if index < 0 and len(pile):
+        index = max(pile.next_waiting(-1), 0) if not rest else self._index(rest)
+        if index is None:
             self._refuse(HTTPStatus.NOT_FOUND, "There is no such answer.")
             return
         self._send(HTTPStatus.OK, answer_page(pile, index, self.server.course, self.server.guide), "text/html")
@@ -76,13 +74,18 @@ class _Handler(BaseHTTPRequestHandler):
             self._refuse(HTTPStatus.FORBIDDEN, "This form does not come from the desk.")
             return
         length = self.headers.get("Content-Length", "")
-        number = int(rest) if rest.isascii() and rest.isdecimal() and len(rest) < 9 else 0
+        index = self._index(rest)
         if not (length.isascii() and length.isdecimal() and int(length) <= _LARGEST):
             self._refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "This is no form of the desk.")
-        elif not 1 <= number <= len(self.server.pile):
+        elif index is None:
             self._refuse(HTTPStatus.NOT_FOUND, "There is no such answer.")
         else:
-            self._store(number - 1, self.rfile.read(int(length)))
+            self._store(index, self.rfile.read(int(length)))
+
+    def _index(self, rest: str) -> int | None:
+        """Read the number of an answer, from 1; None where there is no such."""
+        number = int(rest) if rest.isascii() and rest.isdecimal() and len(rest) < 9 else 0
+        return number - 1 if 1 <= number <= len(self.server.pile) else None
 
     def _store(self, index: int, body: bytes) -> None:
         fields = parse_qs(body.decode("utf-8", "replace"), keep_blank_values=True)

@@ -27,6 +27,7 @@ _FLAGS = (
     "--remote-debugging-pipe",
     "about:blank",
 )
+AXE = os.environ.get("AXE_CORE", "")  # where axe.min.js lies; .ci/run installs it
 _PATIENCE = 30.0  # seconds
 
 
@@ -113,7 +114,7 @@ class Browser:
         return message
 
     def open(self, path: Path | str, *, width: int = 1200, dark: bool = False, script: bool = True) -> None:
-        """Open a file or an address at a width, in light or dark mode, with or without its script; wait until it is loaded."""
+        """Open a file or an address at a width, in light or dark mode, with or without its script; wait for it."""
         self.send(
             "Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600
         )
@@ -141,6 +142,19 @@ class Browser:
         for character in text:
             self.send("Input.dispatchKeyEvent", type="keyDown", text=character, key=character)
             self.send("Input.dispatchKeyEvent", type="keyUp", key=character)
+
+    def escape(self) -> None:
+        """Press the escape key."""
+        for kind in ("rawKeyDown", "keyUp"):
+            self.send("Input.dispatchKeyEvent", type=kind, key="Escape", code="Escape", windowsVirtualKeyCode=27)
+
+    def violations(self) -> list[Any]:
+        """Return what axe-core finds wrong with the page."""
+        self.run(Path(AXE).read_text(encoding="utf-8"))
+        listed = "r.violations.map((v) => [v.id, v.nodes.map((n) => n.html)])"
+        passed, found = self.run(f"axe.run().then((r) => [r.passes.length, {listed}])")
+        assert passed > 10, "axe-core has looked at nothing"
+        return list(found)
 
     def wait_for(self, expression: str) -> None:
         """Wait until JavaScript says true, also across a new page."""
