@@ -9,7 +9,8 @@ import msgspec
 
 from autograder.course import Course
 from autograder.engine.corpus import Corpus
-from autograder.engine.local import Answer, Pool, default_workers
+from autograder.engine.local import LocalPool, default_workers
+from autograder.engine.pool import Answer
 from autograder.engine.worker import Grade, Graded, Orders, Trouble
 from autograder.errors import SandboxError
 from autograder.sandbox.frames import Source
@@ -66,7 +67,7 @@ def examine(
         found[index] = answer.stages
         on_done(len(found), len(sources), sources[index].name)
 
-    with Pool(msgspec.msgpack.encode(orders), workers or default_workers()) as pool:
+    with LocalPool(msgspec.msgpack.encode(orders), workers or default_workers()) as pool:
         assert pool.confinement is not None  # entering the pool waits for it
         level = pool.confinement.level
         pool.run([(index, Grade(source)) for index, source in enumerate(sources)], keep)

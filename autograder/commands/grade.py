@@ -87,6 +87,9 @@ POLICIES = ("full", "hint", "score")
     "[default: the course's, or full]",
 )
 @click.option(
+    "--scheduler", metavar="ADDRESS", help="Grade on the dask cluster of this scheduler, such as tcp://host:8786."
+)
+@click.option(
     "--min-confinement",
     type=click.Choice(LEVELS),
     help="Refuse to grade where `autograder doctor` finds less. [default: the course's, or seccomp]",
@@ -179,6 +182,7 @@ def grade_and_report(
     feedback: str | None = None,
     min_confinement: str | None = None,
     allow_unconfined: bool = False,
+    scheduler: str | None = None,
     merge: bool = False,
     assigned: Mapping[str, Assigned] | None = None,
 ) -> Run:
@@ -215,7 +219,7 @@ def grade_and_report(
         "feedback": feedback or course.feedback,
         "min_confinement": min_confinement or course.min_confinement,
     }
-    settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, **given)
+    settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, scheduler=scheduler, **given)
     with progress() as report:
         run = grade(submissions, course, settings, out, report, assigned)
     results = run.results
@@ -257,7 +261,9 @@ def print_results(results: Sequence[Result], out: Path, as_json: bool) -> None:
 
 
 def exit_code(run: Run) -> int:
-    """Return 130 for an interrupted run, 3 where something could not be graded, else 0."""
+    """Return 130 for an interrupted run, 3 where something could not be graded or explained, else 0."""
+    from autograder.engine.store import DRAFT
+
     if run.interrupted:
         click.echo(
             f"autograder: Interrupted: {len(run.results)} of {run.record.submissions} are graded and kept; "
@@ -270,6 +276,14 @@ def exit_code(run: Run) -> int:
         click.echo(
             f"autograder: {len(broken)} could not be graded, through no fault of the student "
             f"({', '.join(broken[:3])}{', ...' if len(broken) > 3 else ''}); see results/ and `autograder doctor`.",
+            err=True,
+        )
+        return 3
+    drafts = [result.submission for result in run.results if result.fingerprint.endswith(DRAFT)]
+    if drafts:
+        click.echo(
+            f"autograder: {len(drafts)} are graded but not explained, because their worker was lost twice "
+            f"({', '.join(drafts[:3])}{', ...' if len(drafts) > 3 else ''}); the same command goes on from there.",
             err=True,
         )
         return 3

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from autograder.engine.explain import wants_explanation
-from autograder.engine.local import Answer, Pool
+from autograder.engine.pool import Answer, Pool
 from autograder.engine.store import DRAFT
-from autograder.engine.worker import Explain, Explained, Known
+from autograder.engine.worker import Explain, Explained, Known, Trouble
 from autograder.intake.submission import Submission
 from autograder.verdicts import Result, StageVerdict
 
@@ -25,6 +25,8 @@ def explain_all(
 
     The leader of a group is its member with the smallest digest of the source, whether it was
     graded now or in an earlier run, so that a resumed run explains as an undisturbed one does.
+    Where a leader's worker is lost twice, its groups stay drafts: their members are not explained
+    in another way than they would be without the loss, and the next run goes on from there.
 
     Parameters
     ----------
@@ -42,6 +44,7 @@ def explain_all(
     wanted = [_wanted(result) for result in found]
     order = sorted(range(len(submissions)), key=lambda index: submissions[index].digest)
     shared: dict[Group, Known] = {}
+    adrift: set[Group] = set()
 
     def job(index: int, verdicts: Sequence[StageVerdict]) -> tuple[int, Explain]:
         source = submissions[index].source
@@ -49,14 +52,17 @@ def explain_all(
         given = tuple(shared.get(_group(verdict)) for verdict in verdicts)
         return index, Explain(source, tuple(verdicts), given)
 
-    def led(_: int, answer: Answer) -> None:
+    def led(index: int, answer: Answer) -> None:
+        if isinstance(answer, Trouble) and answer.lost:
+            adrift.update(map(_group, leaders[index]))
         if isinstance(answer, Explained):
             for verdict, known in zip(answer.verdicts, answer.known, strict=True):
                 shared.setdefault(_group(verdict), known)
 
-    pool.run([job(index, verdicts) for index, verdicts in _leaders(drafts, order, wanted).items()], led)
+    leaders = _leaders(drafts, order, wanted)
+    pool.run([job(index, verdicts) for index, verdicts in leaders.items()], led)
     pool.run(
-        [job(index, wanted[index]) for index in drafts],
+        [job(index, wanted[index]) for index in drafts if adrift.isdisjoint(map(_group, wanted[index]))],
         lambda index, answer: finish(submissions[index], answer),
     )
 

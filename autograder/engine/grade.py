@@ -12,13 +12,13 @@ from msgspec.structs import replace
 import autograder
 from autograder.course import Course
 from autograder.engine.corpus import Corpus, draw_corpus
+from autograder.engine.crew import crew, level_of
 from autograder.engine.explain import wants_explanation
 from autograder.engine.explain_all import explain_all
-from autograder.engine.local import Answer, Pool, default_workers
+from autograder.engine.pool import Answer, Pool
 from autograder.engine.run import Assigned, Progress, Run, Settings
 from autograder.engine.store import DRAFT, RunRecord, Store, code_digest, fingerprint, versions
 from autograder.engine.worker import Explained, Grade, Graded, Orders, Trouble
-from autograder.errors import SandboxError
 from autograder.intake.submission import Submission
 from autograder.intake.written import written_answers
 from autograder.problems.variants import published
@@ -26,8 +26,6 @@ from autograder.stages.catalogue import all_stages
 from autograder.verdicts import Result
 
 __all__ = ["Assigned", "Progress", "Run", "Settings", "grade"]
-
-LEVELS = ("none", "seccomp", "full")
 
 
 def grade(
@@ -98,10 +96,8 @@ class _Grading:
         """Do everything; an interruption keeps what is done."""
         interrupted = False
         try:
-            with Pool(self._orders(), self.settings.workers or default_workers()) as pool:
-                assert pool.confinement is not None  # entering the pool waits for it
-                self.level = pool.confinement.level
-                self._require_level(pool.confinement.detail)
+            with crew(self._orders(), self.settings) as pool:
+                self.level = level_of(pool, self.settings)
                 self._confirm(pool, self._first_pass(pool))
                 explain_all(pool, self.submissions, self.results, self._finish_explained)
         except KeyboardInterrupt:
@@ -123,14 +119,6 @@ class _Grading:
                 follow_through=self.course.follow_through,
             )
         )
-
-    def _require_level(self, detail: str) -> None:
-        demanded = "none" if self.settings.allow_unconfined else self.settings.min_confinement
-        if LEVELS.index(self.level) < LEVELS.index(demanded):
-            raise SandboxError(
-                f"This machine confines at level {self.level} ({detail}), and {demanded} is demanded; "
-                "`autograder doctor` says what is missing."
-            )
 
     def _first_pass(self, pool: Pool) -> list[int]:
         """Grade everything that has no result yet; return those that ran out of time."""
@@ -169,7 +157,12 @@ class _Grading:
         self._finish(self._result(self.submissions[index], answer))
 
     def _finish_explained(self, submission: Submission, answer: Answer) -> None:
-        """Store the final result; where explaining went wrong, the verdicts stand as they were."""
+        """Store the final result; where explaining went wrong, the verdicts stand as they were.
+
+        Where only a worker was lost, the draft stays a draft: the next run goes on from there.
+        """
+        if isinstance(answer, Trouble) and answer.lost:
+            return
         draft = self.results[submission.id]
         changed = {verdict.name: verdict for verdict in answer.verdicts} if isinstance(answer, Explained) else {}
         stages = tuple(changed.get(verdict.name, verdict) for verdict in draft.stages)
@@ -193,6 +186,7 @@ class _Grading:
             fingerprint=fingerprint,
             score=round(min(score, max(self.course.bonus_cap, self.max_score)), 6),
             seconds=answer.seconds,
+            confinement=answer.confinement or self.level,
             bonus=bonus,
             provisional=awaiting > 0,
             awaiting=awaiting,

@@ -16,12 +16,12 @@ from typing import Any
 import msgspec
 
 from autograder.engine import worker
-from autograder.engine.worker import Explained, Graded, Job, Ready, Trouble
+from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Answer
+from autograder.engine.worker import Job, Ready, Trouble
 from autograder.errors import SandboxError
 
 _MAIN = threading.main_thread()  # the only one that may set signal handlers
-MAX_LOSSES = 2  # a submission whose worker is lost so often is given up
-Answer = Graded | Explained | Trouble
+MAX_STARTS = 4  # workers in a row that end before they are ready, before the run is given up
 MAX_FRAME = 64 * 1024 * 1024
 
 
@@ -34,7 +34,7 @@ class _Worker:
 
 
 @dataclass
-class Pool:
+class LocalPool:
     """A pool of worker processes.
 
     Parameters
@@ -54,13 +54,17 @@ class Pool:
     size: int
     confinement: Ready | None = None
     _workers: list[_Worker] = field(default_factory=list)
+    _false_starts: int = 0
 
-    def __enter__(self) -> Pool:
+    def __enter__(self) -> LocalPool:
         """Start one worker and wait for it: a machine without locks is noticed before anything is graded."""
         try:
             self._workers.append(self._start())
             while self.confinement is None:
-                self._receive(self._workers[0])
+                try:
+                    self._receive(self._workers[0])
+                except (EOFError, OSError):
+                    self._workers[0] = self._replace(self._workers[0])
         except BaseException:
             self.close()
             raise
@@ -105,31 +109,50 @@ class Pool:
                     if losses[job] < MAX_LOSSES:
                         waiting.appendleft((job, known[job]))
                         continue
-                    answer = Trouble("The worker process was lost twice while this submission ran.")
+                    answer = GIVEN_UP
                 if answer is not None and job is not None:
                     done(job, answer)
                     unfinished -= 1
 
     def _start(self) -> _Worker:
         context = multiprocessing.get_context("spawn")  # a fresh interpreter: nothing of the client is inherited
+        while True:
+            started = self._start_once(context)
+            if started is not None:
+                return started
+
+    def _start_once(self, context: multiprocessing.context.SpawnContext) -> _Worker | None:
+        """Start a worker; None where it was killed before it had read what to do."""
         ours, theirs = context.Pipe()
         process = context.Process(target=worker.main, args=(theirs, self.orders), daemon=True)
         # A worker is born deaf to Ctrl-C, which is the client's to handle, even while it still imports.
         before = signal.signal(signal.SIGINT, signal.SIG_IGN) if threading.current_thread() is _MAIN else None
         try:
             process.start()
+        except BrokenPipeError:
+            ours.close()
+            self._count_false_start("killed at once")
+            return None
         finally:
             if before is not None:
                 signal.signal(signal.SIGINT, before)
-        theirs.close()
+            theirs.close()
         return _Worker(process, ours)
 
     def _replace(self, lost: _Worker) -> _Worker:
-        if not lost.ready:
-            raise SandboxError("A worker process ended before it was ready; `autograder doctor` may say why.")
         lost.connection.close()
         lost.process.join()
+        if not lost.ready:
+            self._count_false_start(f"status {lost.process.exitcode}")
         return self._start()
+
+    def _count_false_start(self, how: str) -> None:
+        self._false_starts += 1
+        if self._false_starts >= MAX_STARTS:
+            raise SandboxError(
+                f"{MAX_STARTS} worker processes in a row ended before they were ready (the last: {how}); "
+                "`autograder doctor` may say why."
+            )
 
     def _give(self, each: _Worker, number: int, job: Job) -> None:
         each.job = number
@@ -142,6 +165,7 @@ class Pool:
             raise SandboxError(message.message)
         if isinstance(message, Ready):
             each.ready = True
+            self._false_starts = 0
             self.confinement = self.confinement or message
             return None
         each.job = None

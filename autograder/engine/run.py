@@ -24,6 +24,7 @@ class Settings:
     feedback: Literal["full", "hint", "score"] = "full"
     min_confinement: Literal["full", "seccomp", "none"] = "seccomp"
     allow_unconfined: bool = False
+    scheduler: str | None = None
 
 
 @dataclass(frozen=True)

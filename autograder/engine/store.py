@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import platform
 import sys
 from collections.abc import Iterable
@@ -15,7 +16,7 @@ import numpy as np
 import autograder
 from autograder.errors import UsageError
 from autograder.verdicts import Result, decode, encode
-from autograder.writing import write_whole
+from autograder.writing import sweep, write_whole
 
 # Rooms that are left out of the digest of the code: specimens are data, and the others come after the verdicts.
 SHOWING = {"specimens", "reports", "exports", "marking", "desk", "commands", "audit", "cli.py", "__main__.py", "render"}
@@ -61,6 +62,10 @@ class Store:
             raise UsageError(
                 f"{out} cannot be used as output folder ({error.strerror}); choose another with -o."
             ) from None
+        if not (os.access(out, os.W_OK) and os.access(self.results, os.W_OK)):
+            raise UsageError(f"{out} cannot be written by this user; choose another with -o.")
+        sweep(out)
+        sweep(self.results)
 
     def load(self, submission: str, fingerprint: str) -> Result | None:
         """Return the stored result if it is whole, from the same work, and not a fault of ours.

@@ -142,7 +142,7 @@ def test_a_rejected_upload_scores_zero_and_says_why(uploads, tmp_path):
 
 def test_a_weaker_confinement_than_demanded_is_refused(uploads, tmp_path, monkeypatch):
     """Nothing is graded below the level that the course demands."""
-    monkeypatch.setattr("autograder.engine.grade.LEVELS", ("full", "none", "seccomp"))
+    monkeypatch.setattr("autograder.engine.crew.LEVELS", ("full", "none", "seccomp"))
     with pytest.raises(SandboxError, match="autograder doctor"):
         grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out")
     assert not list((tmp_path / "out/results").iterdir())

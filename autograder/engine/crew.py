@@ -1,0 +1,42 @@
+"""Who does the work of a run: this machine or a cluster, and at which level of confinement."""
+
+from __future__ import annotations
+
+from autograder.engine.local import LocalPool, default_workers
+from autograder.engine.pool import Pool
+from autograder.engine.run import Settings
+from autograder.engine.worker import Ready
+from autograder.errors import SandboxError
+
+LEVELS = ("none", "seccomp", "full")
+
+
+def crew(orders: bytes, settings: Settings) -> Pool:
+    """Choose the workers of a run; they start when the pool is entered."""
+    if settings.scheduler is None:
+        return LocalPool(orders, settings.workers or default_workers())
+    from autograder.engine.cluster import Cluster  # noqa: PLC0415 - an extra that not everybody installs
+
+    return Cluster(orders, settings.scheduler, demanded(settings))
+
+
+def demanded(settings: Settings) -> str:
+    """Return the weakest level that will do."""
+    return "none" if settings.allow_unconfined else settings.min_confinement
+
+
+def level_of(pool: Pool, settings: Settings) -> str:
+    """Return the level that a pool gives.
+
+    Raises
+    ------
+    SandboxError
+        Where that is weaker than demanded.
+    """
+    given = pool.confinement or Ready("none", "nothing is known")
+    if LEVELS.index(given.level) < LEVELS.index(demanded(settings)):
+        raise SandboxError(
+            f"This machine confines at level {given.level} ({given.detail}), and {demanded(settings)} is demanded; "
+            "`autograder doctor` says what is missing."
+        )
+    return given.level
