@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import stat
 import struct
+import tarfile
 import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -54,6 +55,7 @@ def uploads() -> Iterator[Upload]:
     for word, kind in kinds.items():
         reason = "is a link" if word == "link" else "is a device, a pipe or the like"
         yield Upload(89, f"u89_entry_{word}.zip", _with(info("notes.txt", kind | 0o777), b"/etc/passwd"), reason)
+    yield Upload(89, "u89_links.tar", _tar(), "is a .tar, expected one .py, .ipynb or .zip file")
     yield Upload(90, "u90_bomb.zip", _bomb(), "larger than 1 MiB")
     yield Upload(90, "u90_nested.zip", archive({**good, "inner.zip": archive(good)}), "holds another archive")
     yield Upload(90, "u90_lying_size.zip", _lying(), "broken")
@@ -96,6 +98,20 @@ def _with(header: zipfile.ZipInfo, content: bytes) -> bytes:
     buffer = io.BytesIO(archive({"slam1d.py": HONEST}))
     with zipfile.ZipFile(buffer, "a") as target:
         target.writestr(header, content)
+    return buffer.getvalue()
+
+
+def _tar() -> bytes:
+    """Pack a symbolic and a hard link and a device with a submission, as only tar can."""
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w") as target:
+        for name, kind in (("a", tarfile.SYMTYPE), ("b", tarfile.LNKTYPE), ("c", tarfile.CHRTYPE)):
+            member = tarfile.TarInfo(name)
+            member.type, member.linkname = kind, "/etc/passwd"
+            target.addfile(member)
+        member = tarfile.TarInfo("slam1d.py")
+        member.size = len(HONEST)
+        target.addfile(member, io.BytesIO(HONEST.encode()))
     return buffer.getvalue()
 
 
