@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -9,7 +10,14 @@ from pathlib import Path
 import msgspec
 import pytest
 
+from autograder.course import Course
+from autograder.marking.answers import answers
+from autograder.marking.marks import Mark
 from autograder.reports.folder import write_reports
+from autograder.reports.written import written_page
+from autograder.verdicts import Adjustment
+from tests.intake.test_pictures import png
+from tests.marking.written import answered, written_class
 from tests.reports.browser import AXE, CHROMIUM, Browser
 from tests.reports.examples import WRONG_J, WRONG_NORMAL, result, small_class, stage
 
@@ -54,7 +62,20 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> Path:
         notes=(EVIL,),
     )
     rejected = result("lost", status="rejected", message=EVIL)
+    rich = msgspec.structs.replace(
+        rich,
+        comments={"2": EVIL},
+        adjustments=(Adjustment(stage="residual", before=15.0, after=12.0, said=EVIL),),
+        flags=(EVIL,),
+    )
     write_reports([*small_class(), rich, evil, rejected], out, RECORD, course=f"SLAM {EVIL}")
+    data = f"data:image/png;base64,{base64.b64encode(png(wide=1)).decode()}"
+    seen = answered(
+        "pia", {"2": "see ![plot](attachment:p.png)", "3": "| a | b |\n|---|---|\n| 1 | 2 |"}, images={"p.png": data}
+    )
+    marks = {("ann", "2"): Mark("ann", "2", 1.0, 2.0, EVIL)}
+    listed = answers([*written_class(), seen], marks, Course())
+    (out / "written.html").write_text(written_page(listed, f"SLAM {EVIL}"), encoding="utf-8")
     return out
 
 
@@ -62,6 +83,7 @@ def every_page(out: Path) -> list[Path]:
     """List the kinds of pages: the class, and one of each kind of student."""
     return [
         out / "report.html",
+        out / "written.html",
         *(out / "feedback" / f"{name}.html" for name in ("alice", "rich", "evil", "judy", "kim")),
     ]
 
@@ -101,7 +123,7 @@ def test_hostile_names_and_messages_are_text(browser: Browser, pages: Path) -> N
         browser.open(path)
         assert browser.run("document.title") != "evil"
         assert "SLAM <script>" in browser.run("document.title")
-        assert browser.run("document.querySelectorAll('img:not([src^=\"data:image/svg+xml\"])').length") == 0
+        assert browser.run("document.querySelectorAll('img:not([src^=\"data:image/\"])').length") == 0
         assert browser.run("document.querySelectorAll('script').length") == (path.name == "report.html")
     browser.open(pages / "feedback" / "evil.html")
     assert browser.run("document.body.innerText").count("{{7*7}}") >= 4
