@@ -200,7 +200,7 @@ def test_trace_tells_harmless_from_broken(
 ) -> None:
     """A refusal that a part survives is shown and is no failure."""
 
-    def trace(**_: Any) -> list[Part]:
+    def trace() -> list[Part]:
         if isinstance(parts, SandboxError):
             raise parts
         return list(parts)
