@@ -14,16 +14,18 @@ ifneq ($(shell cat $(VENV)/made-for 2>/dev/null),$(PLACE))
 ANEW := anew
 endif
 
-.PHONY: help demo test bench fuzz mutants lock clean anew
+.PHONY: help demo test interop bench fuzz crashes mutants lock clean anew
 .DELETE_ON_ERROR:
 
 help:
 	@echo "make demo    grade a small sample class, print the table and say where to look"
 	@echo "make test    check format, lint and types, then run all tests"
+	@echo "make interop install nbgrader and Otter beside .venv and compare their marks with ours (network, ten minutes)"
 	@echo "make bench   measure the speed of the grader on a class of 200"
 	@echo "make fuzz    throw a million random frames at the grader, then many fresh examples at the properties"
 	@echo "make mutants change the reference everywhere, one place at a time: does the exam notice?"
 	@echo "make hostile print which attacks of the hostile corpus get through, with the locks and without"
+	@echo "make crashes kill workers, fork servers and the grader fifty times, and compare what they leave"
 	@echo "make lock    write requirements.lock anew from pyproject.toml"
 	@echo "make clean   remove everything that make made"
 	@echo ""
@@ -43,6 +45,9 @@ test: $(VENV)/ready
 	@echo "--- tests: pytest"
 	@$(PY) -m pytest -q --cov --cov-report=term
 
+interop: $(VENV)/ready
+	@INTEROP=1 INTEROP_ENVIRONMENTS=$(CURDIR)/$(VENV)/interop $(PY) -m pytest -q -s tests/exports/interop
+
 bench: $(VENV)/ready
 	@$(PY) -m tests.benchmarks
 
@@ -53,6 +58,9 @@ fuzz: $(VENV)/ready
 	@$(PY) tests/fuzz/guided.py --seconds $(GUIDED_SECONDS)
 	@echo "--- property tests: fresh examples"
 	@$(PY) -m pytest -q --hypothesis-profile=fuzz -m "hypothesis and not slow"
+
+crashes: $(VENV)/ready
+	@CRASH_ROUNDS=9 $(PY) -m pytest -q -s tests/engine/test_crashes.py
 
 mutants: $(VENV)/ready
 	@$(PY) -m tests.mutation

@@ -6,6 +6,7 @@ modules are imported inside the commands' functions, so that `--help` answers at
 
 from __future__ import annotations
 
+import errno
 import importlib
 import os
 import pkgutil
@@ -22,6 +23,9 @@ DONE, DEFECT, USAGE, OUR_FAULT, INTERRUPTED = 0, 1, 2, 3, 130
 
 # In the order of a course, from a first look to the exported marks. Others follow by name.
 _FIRST = ("demo", "doctor", "init", "release", "variant", "grade", "mark", "report", "diff", "export", "audit")
+
+_NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS}
+_KEPT = "Results so far are kept; make room, or choose another folder, and the same command goes on from there."
 
 
 class Commands(click.Group):
@@ -94,6 +98,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     except Exception as error:  # the last resort: the user gets a sentence, the file gets the rest
         if "--debug" in arguments:
             raise
+        if isinstance(error, OSError) and error.errno in _NO_ROOM:
+            sys.exit(_say(f"{error.filename or 'A file'} could not be written ({error.strerror}). {_KEPT}", USAGE))
         code = _say(_unexpected(error), OUR_FAULT)
     sys.exit(code if isinstance(code, int) else DONE)
 

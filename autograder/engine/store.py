@@ -20,6 +20,7 @@ from autograder.writing import sweep, write_whole
 
 # Rooms that are left out of the digest of the code: specimens are data, and the others come after the verdicts.
 SHOWING = {"specimens", "reports", "exports", "marking", "desk", "commands", "audit", "cli.py", "__main__.py", "render"}
+_EFFECTIVE = os.access in os.supports_effective_ids
 DRAFT = "-draft"  # ends the fingerprint of a result that is judged, and not yet explained
 
 
@@ -62,7 +63,7 @@ class Store:
             raise UsageError(
                 f"{out} cannot be used as output folder ({error.strerror}); choose another with -o."
             ) from None
-        if not (os.access(out, os.W_OK) and os.access(self.results, os.W_OK)):
+        if not all(os.access(folder, os.W_OK, effective_ids=_EFFECTIVE) for folder in (out, self.results)):
             raise UsageError(f"{out} cannot be written by this user; choose another with -o.")
         sweep(out)
         sweep(self.results)
