@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -78,6 +79,7 @@ def people_of(
     roster, secret and term, as a first release of that roster would have drawn them.
     """
     from autograder.commands._class import drawn_ledger, mix_of
+    from autograder.commands._progress import shown
     from autograder.problems.ledger import read_ledger
     from autograder.problems.roster import Student, read_roster
 
@@ -88,7 +90,9 @@ def people_of(
         return People([Student(variant.student_id) for variant in entries or ()], entries)
     students = read_roster(roster)
     if entries is None and secret is not None and term is not None:
-        entries = drawn_ledger(students, secret, term, mix_of(families, course))
+        with ExitStack() as stack:
+            show = shown(stack, "drawing", "drew")
+            entries = drawn_ledger(students, secret, term, mix_of(families, course), show)
     return People(students, entries)
 
 

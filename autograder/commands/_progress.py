@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import NamedTuple, Protocol, TextIO
 
 _SECONDS_BETWEEN_LINES = 5.0
@@ -59,6 +59,20 @@ def progress(
             yield report
     else:
         yield Lines(file, did=did)
+
+
+def shown(stack: ExitStack, doing: str, did: str) -> Callable[[int, int, str], None]:
+    """Give a function that shows progress; the bar opens at its first call, and closes the one before it."""
+    reports: list[Callable[[int, int, str], None]] = []
+
+    def report(done: int, total: int, name: str) -> None:
+        if not reports:
+            stack.close()
+            show = stack.enter_context(progress(doing=doing, did=did))
+            reports.append(lambda *at: show(Step(*at)))
+        reports[0](done, total, name)
+
+    return report
 
 
 class Lines:

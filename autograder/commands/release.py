@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from autograder.commands._class import Draws, secret_options
+from autograder.commands._class import secret_options
 
 if TYPE_CHECKING:
     from autograder.problems.problem import Problem
@@ -60,6 +60,7 @@ def command(
     autograder release --roster class.csv --term 2026S --secret-file secret.txt --family B --family C -o release
     """
     from autograder.commands._class import demand_of, mix_of, secret_of
+    from autograder.commands._progress import shown
     from autograder.course import load_course
     from autograder.engine.local import default_workers
     from autograder.problems.release import LEDGER, release
@@ -93,22 +94,6 @@ def command(
         f"When they hand in: autograder grade UPLOADS --roster {roster} --term {term} --secret-file {secret_file} "
         f"--ledger {out / LEDGER} -o graded"
     )
-
-
-def shown(stack: ExitStack, doing: str, did: str) -> Draws:
-    """Give a function that shows progress; the bar opens at its first call, and closes the one before it."""
-    from autograder.commands._progress import Step, progress
-
-    reports: list[Draws] = []
-
-    def report(done: int, total: int, name: str) -> None:
-        if not reports:
-            stack.close()
-            show = stack.enter_context(progress(doing=doing, did=did))
-            reports.append(lambda *at: show(Step(*at)))
-        reports[0](done, total, name)
-
-    return report
 
 
 def worked_solution(problem: Problem) -> dict[str, str]:

@@ -20,6 +20,7 @@ from tests.commands.released import (
     SECRET,
     TERM,
     files_of_the_course,
+    ledger_of,
     letter,
     module,
     options,
@@ -160,6 +161,27 @@ def test_a_term_without_its_secret_is_refused(
     code, _, err = run("grade", tmp_path / "uploads", "-o", tmp_path / "out", "--term", TERM)
     assert (code, err.count("\n")) == (2, 1)
     assert "--secret-file is missing" in err
+
+
+@pytest.mark.slow
+def test_the_keys_of_every_family_get_full_marks(run: Callable[..., Ended], tmp_path: Path) -> None:
+    """The worked notebooks of a release, handed in by the students they belong to, earn everything but the words."""
+    files = files_of_the_course(tmp_path)
+    students = [f"s{number:02}" for number in range(14)]
+    files["--roster"].write_text("student_id\n" + "\n".join(students) + "\n")
+    families = [word for letter in "EWABCDL" for word in ("--family", letter)]
+    assert run("release", *options(files), "-o", tmp_path / "release", *families)[0] == 0
+    staff = tmp_path / "release" / "staff"
+    assert len({variant.family for variant in ledger_of(tmp_path / "release")}) > 3
+    code, _, err = run(
+        "grade", staff / "worked", "-o", tmp_path / "out", *options(files, ledger=staff / "variants.csv"), *QUICK
+    )
+    found = results(tmp_path / "out")
+    assert (code, sorted(found)) == (0, students)
+    assert {(one["student_id"] == name, one["score"], tuple(one["flags"])) for name, one in found.items()} == {
+        (True, 105, ())
+    }
+    assert "No submission" not in err
 
 
 @pytest.mark.slow
