@@ -35,7 +35,7 @@ def print_class(results: Sequence[Result], to: Console) -> None:
         to.print(line)
     if said := waiting(results):
         to.print(Text(f"{said}.", style="cyan"))
-    for line in not_graded(results, to.width):
+    for line in [*not_graded(results, to.width), *flagged(results, to.width)]:
         to.print(line)
     listed = went_wrong(results, to.width)
     if listed:
@@ -96,13 +96,23 @@ def not_graded(results: Sequence[Result], width: int, most: int = 8) -> list[Tex
         for result in results
         if result.status != "graded" and result.message
     ]
-    if not reasons:
+    return _listed("Not graded", reasons, width, most)
+
+
+def flagged(results: Sequence[Result], width: int, most: int = 8) -> list[Text]:
+    """List what only staff should see, such as the numbers of somebody else."""
+    remarks = [f"{visible(one.submission)}: {visible(' '.join(one.flags))}" for one in results if one.flags]
+    return _listed("For a human to look at", remarks, width, most)
+
+
+def _listed(title: str, remarks: Sequence[str], width: int, most: int) -> list[Text]:
+    if not remarks:
         return []
-    lines = [Text(), Text("Not graded", style="bold")]
-    for reason in reasons[:most]:
-        lines += [Text(line) for line in textwrap.wrap(reason, width, initial_indent="  ", subsequent_indent="    ")]
-    if len(reasons) > most:
-        lines.append(Text(f"  and {len(reasons) - most} more, see results/", style="dim"))
+    lines = [Text(), Text(title, style="bold")]
+    for remark in remarks[:most]:
+        lines += [Text(line) for line in textwrap.wrap(remark, width, initial_indent="  ", subsequent_indent="    ")]
+    if len(remarks) > most:
+        lines.append(Text(f"  and {len(remarks) - most} more, see results/", style="dim"))
     return lines
 
 

@@ -71,6 +71,14 @@ def test_the_whole_reason_stands_below_the_table() -> None:
     assert max(map(len, text.splitlines())) <= 80
 
 
+def test_what_staff_should_look_at_stands_below_the_table() -> None:
+    """Flags are listed with the submission; without any there is no list."""
+    copied = result("bo", flags=("The start x^(0): the numbers of s1.", "s2 has 2 submissions."))
+    text = printed([result("ann"), copied], 100)
+    assert "For a human to look at\n  bo: The start x^(0): the numbers of s1. s2 has 2 submissions.\n" in text
+    assert "For a human" not in printed([result("ann")], 100)
+
+
 def test_means_are_over_graded_submissions_only() -> None:
     """Rejected uploads and our own faults do not lower the class mean."""
     summaries = {s.name: s for s in stage_summaries(small_class())}
