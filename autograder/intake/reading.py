@@ -69,5 +69,5 @@ def _read_archive(data: bytes) -> Content:
     try:
         content = read_entry(entry)
     except RejectedUpload as error:
-        raise RejectedUpload(f"holds {entry.name[:80]}, which {error}") from None
-    return replace(content, notes=(f"Read from {'/'.join(entry.parts)[:120]} in the archive.", *notes, *content.notes))
+        raise RejectedUpload(f"holds {printable(entry.name)[:80]}, which {error}") from None
+    return replace(content, notes=(f"Read from {printable('/'.join(entry.parts))[:120]} in the archive.", *notes, *content.notes))
