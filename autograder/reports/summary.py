@@ -134,8 +134,9 @@ def is_consequence(stage: StageVerdict) -> bool:
 
 
 def _is_read(stage: StageVerdict) -> bool:
-    """Tell a stage that a person marked: its reasons are comments, one for each student."""
-    return stage.name == "written" and stage.status != "missing"
+    """Tell a stage whose points come from a person: the reason is told to one student and is no mistake of a class."""
+    by_hand = stage.name == "written" and stage.status != "missing"
+    return by_hand or bool(stage.checks and all(check.passed for check in stage.checks))
 
 
 def reason(stage: StageVerdict) -> str:

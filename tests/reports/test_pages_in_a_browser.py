@@ -107,6 +107,21 @@ def test_no_page_scrolls_sideways(browser: Browser, pages: Path, width: int) -> 
         assert browser.run("document.documentElement.scrollWidth") <= width, path
 
 
+def test_paper_is_white_whole_and_without_controls(browser: Browser, pages: Path) -> None:
+    """Printed from dark mode: dark ink on white, nothing beyond the edge of A4, no field to type into."""
+    for path in every_page(pages):
+        browser.open(path, width=720)
+        features = [{"name": "prefers-color-scheme", "value": "dark"}]
+        browser.send("Emulation.setEmulatedMedia", media="print", features=features)
+        try:
+            assert browser.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+            assert browser.run("getComputedStyle(document.body).color") == "rgb(0, 0, 0)"
+            assert browser.run("document.documentElement.scrollWidth") <= 720, path
+            assert browser.run("[...document.querySelectorAll('input')].every((box) => !box.offsetParent)")
+        finally:
+            browser.send("Emulation.setEmulatedMedia", media="")
+
+
 def test_dark_mode_is_dark(browser: Browser, pages: Path) -> None:
     """The ground follows the reader's wish."""
     ground = "getComputedStyle(document.body).backgroundColor"
