@@ -70,4 +70,5 @@ def _read_archive(data: bytes) -> Content:
         content = read_entry(entry)
     except RejectedUpload as error:
         raise RejectedUpload(f"holds {printable(entry.name)[:80]}, which {error}") from None
-    return replace(content, notes=(f"Read from {printable('/'.join(entry.parts))[:120]} in the archive.", *notes, *content.notes))
+    place = printable("/".join(entry.parts))[:120]
+    return replace(content, notes=(f"Read from {place} in the archive.", *notes, *content.notes))
