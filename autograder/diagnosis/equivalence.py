@@ -78,7 +78,10 @@ def _match(given: Rows, expected: Rows) -> tuple[Array, Array] | None:
         fitting = (plus | minus) & close_weights[row] & free
         if not fitting.any():
             return None
-        # An unmoved row is preferred, so that equal rows are not called reordered.
-        partner = row if fitting[row] else int(np.argmax(fitting))
+        # A row that is neither moved nor turned is preferred, then one that is not turned: where rows
+        # are equal, or opposite, a student is not told of a liberty that was not taken.
+        unturned = fitting & plus
+        choice = unturned if unturned.any() else fitting
+        partner = row if choice[row] else int(np.argmax(choice))
         order[row], signs[row], free[partner] = partner, 1.0 if plus[partner] else -1.0, False
     return order, signs

@@ -14,7 +14,7 @@ from autograder.problems.core import GOLDEN
 from autograder.stages.base import Answers, Array, Slip, Stage
 from autograder.stages.catalogue import slips
 
-CLOSE = 1e-7  # relative to the largest number of the array: two ways to compute the same thing agree far better
+CLOSE = 1e-8  # relative to the largest number of the array: rounding is smaller, single precision is larger
 
 
 def trusted_call(function: Callable[..., Any], call: Case, parts: int) -> tuple[Array, ...] | None:
@@ -89,7 +89,11 @@ class Recogniser:
     def _output(self, slip: Slip, index: int) -> tuple[Array, ...] | None:
         key = (slip.identifier, index)
         if key not in self._known:
-            self._known[key] = trusted_call(slip.function, self.calls[index], self.stage.parts)
+            if slip.remembers:  # called as a submission is: every call, in order
+                slip.function.__dict__.clear()
+            for number in range(len(self.calls)) if slip.remembers else (index,):
+                answer = trusted_call(slip.function, self.calls[number], self.stage.parts)
+                self._known[slip.identifier, number] = answer
         return self._known[key]
 
 

@@ -87,6 +87,8 @@ class Explainer:
         stage = self.plan.stage(verdict.name).facet(first)
         known = self.known(stage, verdict.slip) if given is None and verdict.slip is not None else given
         if known is not None:
+            if verdict.slip is None:  # what is said of a submission is found on itself, never on its group
+                known = Explanation((*self._facts(session, stage), *self._probed(session, stage)), known.witness)
             confirmed = self._confirmed(session, stage, verdict, known)
             if confirmed is not None:
                 return confirmed, known

@@ -124,7 +124,7 @@ class LocalPool:
     def _start_once(self, context: multiprocessing.context.SpawnContext) -> _Worker | None:
         """Start a worker; None where it was killed before it had read what to do."""
         ours, theirs = context.Pipe()
-        process = context.Process(target=worker.main, args=(theirs, self.orders), daemon=True)
+        process = context.Process(target=worker.main, args=(theirs,), daemon=True)
         # A worker is born deaf to Ctrl-C, which is the client's to handle, even while it still imports.
         before = signal.signal(signal.SIGINT, signal.SIG_IGN) if threading.current_thread() is _MAIN else None
         try:
@@ -137,6 +137,15 @@ class LocalPool:
             if before is not None:
                 signal.signal(signal.SIGINT, before)
             theirs.close()
+        # The orders go over the connection, not with the process: starting a process waits for its
+        # arguments to be read, and would wait for ever for one that dies before.
+        try:
+            ours.send_bytes(self.orders)
+        except (BrokenPipeError, ConnectionResetError):
+            ours.close()
+            process.join()
+            self._count_false_start("ended before it had its orders")
+            return None
         return _Worker(process, ours)
 
     def _replace(self, lost: _Worker) -> _Worker:

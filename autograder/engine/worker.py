@@ -126,8 +126,8 @@ def decode_message(data: bytes) -> Message:
     return _decoder.decode(data)
 
 
-def main(connection: Connection, orders: bytes) -> None:
-    """Serve until the other end closes: jobs in, verdicts out."""
+def main(connection: Connection) -> None:
+    """Serve until the other end closes: the orders come first, then jobs; verdicts go out."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's to handle
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
@@ -136,7 +136,7 @@ def main(connection: Connection, orders: bytes) -> None:
 
     # A lost fork server ends the worker without a word: who waits for it starts another.
     with contextlib.suppress(BrokenPipeError, EOFError, ConnectionResetError, SandboxLost):
-        told = msgspec.msgpack.decode(orders, type=Orders)
+        told = msgspec.msgpack.decode(connection.recv_bytes(), type=Orders)
         try:
             plan = told.plan()
             sandbox = Sandbox(plan.inputs, told.limits(), allow_unconfined=told.allow_unconfined)

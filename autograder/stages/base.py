@@ -62,6 +62,8 @@ class Slip:
     by_chance : bool
         Whether its numbers are rounding noise, so that it is caught always and named only where
         the student's arithmetic is the same to the last bit.
+    remembers : bool
+        Whether what it answers depends on the calls before; its memory is the function's `__dict__`.
     """
 
     identifier: str
@@ -71,6 +73,7 @@ class Slip:
     catalogue: str = ""
     minimum_poses: int = 2
     by_chance: bool = False
+    remembers: bool = False
 
 
 @dataclass(frozen=True)

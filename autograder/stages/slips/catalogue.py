@@ -39,7 +39,7 @@ class Catalogue:
         return tuple(self._entries)
 
     def __call__(
-        self, catalogue: str = "", *, minimum_poses: int = 2, by_chance: bool = False
+        self, catalogue: str = "", *, minimum_poses: int = 2, by_chance: bool = False, remembers: bool = False
     ) -> Callable[[Function], Function]:
         """Return a decorator that takes a function up and leaves it as it is.
 
@@ -50,6 +50,8 @@ class Catalogue:
             turned out to be the same mistake.
         minimum_poses : int
             Smallest number of poses (columns of J in `normal_equations`) on which it can be seen.
+        remembers : bool
+            Whether what it answers depends on the calls before.
         by_chance : bool
             Whether its numbers are rounding noise.
         """
@@ -65,6 +67,7 @@ class Catalogue:
                     catalogue=catalogue,
                     minimum_poses=minimum_poses,
                     by_chance=by_chance,
+                    remembers=remembers,
                 )
             )
             return function

@@ -110,7 +110,7 @@ def creeps_down_the_gradient(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return step
 
 
-@slip()
+@slip(remembers=True)
 def zero_when_called_again(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The second call for a graph answers zero without looking at the state.
 
@@ -121,7 +121,7 @@ def zero_when_called_again(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return np.zeros(graph.n_poses) if last == graph else right.gauss_newton_step(x, graph)
 
 
-@slip("T1")
+@slip("T1", remembers=True)
 def old_b_used_again(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The second call for a graph uses the b of the first.
 
