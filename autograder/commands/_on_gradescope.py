@@ -12,6 +12,7 @@ import tempfile
 import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from autograder.engine.grade import Assigned
     from autograder.exports.gradescope.archive import Rules
     from autograder.intake.submission import Submission
+    from autograder.reports.feedback import Policy
     from autograder.verdicts import Result
 
 NAME = "submission"  # what the one submission is called; no student's name is needed for grading
@@ -30,6 +32,7 @@ class Graded:
 
     result: Result
     notes: tuple[str, ...]
+    policy: Policy
     course: str
 
 
@@ -44,7 +47,7 @@ def main(arguments: Sequence[str]) -> int:
         rules = read_rules(root / "source" / "rules.json")
         graded = grade_submission(root, rules)
         data = results_json(
-            graded.result, rules.feedback, visibility=rules.visibility, course=graded.course, notes=graded.notes
+            graded.result, graded.policy, visibility=rules.visibility, course=graded.course, notes=graded.notes
         )
         (root / "results").mkdir(exist_ok=True)
         write_whole(root / "results" / "results.json", data)
@@ -61,12 +64,14 @@ def grade_submission(root: Path, rules: Rules) -> Graded:
     """Grade the uploaded files as the course's rules say."""
     from autograder.course import load_course
     from autograder.engine.grade import Settings, grade
+    from autograder.marking.lateness import policy_at
 
     source = root / "source"
     course_file = source / "course.toml"
     course = load_course(course_file if course_file.exists() else None)
     course = replace(course, memory_mib=min(course.memory_mib, rules.memory_mib))
-    options: dict[str, Any] = {"feedback": rules.feedback, "min_confinement": rules.min_confinement}
+    policy = rules.feedback or policy_at(course, datetime.now(UTC))
+    options: dict[str, Any] = {"feedback": policy, "min_confinement": rules.min_confinement}
     settings = Settings(
         seed=rules.seed, examples=rules.examples, workers=1, time_limit=rules.time_limit, fresh=True, **options
     )
@@ -75,7 +80,7 @@ def grade_submission(root: Path, rules: Rules) -> Graded:
         submission = collected(root / "submission", Path(folder))
         given = {} if assigned is None else {submission.id: assigned}
         run = grade([submission], course, settings, Path(folder) / "graded", assigned=given)
-    return Graded(run.results[0], notes, course.title)
+    return Graded(run.results[0], notes, policy, course.title)
 
 
 def collected(uploaded: Path, folder: Path) -> Submission:

@@ -1,11 +1,10 @@
-"""Zip archives that are the same bytes for the same content, and the pages of a run to put into them."""
+"""Zip archives that are the same bytes for the same content."""
 
 from __future__ import annotations
 
 import io
 import zipfile
 from collections.abc import Mapping
-from pathlib import Path
 
 from autograder.errors import UsageError
 
@@ -45,18 +44,3 @@ def names_in(data: bytes, name: str) -> list[str]:
             return [info.filename for info in archive.infolist() if not info.is_dir()]
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
         raise UsageError(f"{name} is no whole zip archive; was the download cut short? Download it again.") from None
-
-
-def page_of(out: Path, submission: str) -> bytes:
-    """Read the page that `grade` or `report` wrote for a student.
-
-    Raises
-    ------
-    UsageError
-        Where it is missing.
-    """
-    path = out / "feedback" / f"{submission}.html"
-    try:
-        return path.read_bytes()
-    except OSError:
-        raise UsageError(f"{path} is missing; write the pages again: autograder report {out}") from None

@@ -9,7 +9,7 @@ from __future__ import annotations
 import textwrap
 
 from autograder.reports.counterexample import counterexample_text
-from autograder.reports.feedback import Policy
+from autograder.reports.feedback import Policy, shown_notes
 from autograder.reports.wording import MARKS, points, visible
 from autograder.verdicts import CheckVerdict, Result, StageVerdict
 
@@ -43,7 +43,8 @@ def feedback_text(result: Result, policy: Policy = "full", course: str = "1D SLA
     if policy != "score":
         said_of = [f"Question {question}: {comment}" for question, comment in sorted(result.comments.items())]
         remarks = [remark for stage in result.stages for remark in stage.remarks]
-        for title, said in (("About your file (what is named did not run and was skipped):", result.notes),
+        notes = shown_notes(result, policy)
+        for title, said in (("About your file (what is named did not run and was skipped):", notes),
                             ("Comments on your written answers:", said_of),
                             ("Remarks, which cost nothing:", remarks)):  # fmt: skip
             if said:

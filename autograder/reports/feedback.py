@@ -79,8 +79,13 @@ def feedback_page(result: Result, policy: Policy = "full", course: str = "1D SLA
         shown = next((check.counterexample for check in failed if check.counterexample), None)
         lost.append(Lost(stage, failed, drawn(shown) if shown and policy == "full" else None))
     passed = [(stage.name, check) for stage in result.stages for check in stage.checks if check.passed]
-    notes = result.notes if policy == "full" else tuple(map(_place_only, result.notes))
+    notes = shown_notes(result, policy)
     return page("feedback.html.j2", result=result, policy=policy, course=course, lost=lost, passed=passed, notes=notes)
+
+
+def shown_notes(result: Result, policy: Policy) -> tuple[str, ...]:
+    """Return the remarks about the file that a policy shows: `hint` says where a statement was skipped, not why."""
+    return result.notes if policy == "full" else tuple(map(_place_only, result.notes))
 
 
 def _place_only(note: str) -> str:

@@ -109,14 +109,19 @@ def test_bad_input_is_one_sentence_and_nothing_is_written(
     assert sorted(tmp_path.rglob("*")) == before
 
 
-def test_a_missing_page_is_named(run: Run, graded: Graded, tmp_path: Path) -> None:
-    """Without the pages there is no archive, and the sentence says how to get them."""
-    out = graded([result("Jane Doe_41")])
-    (out / "feedback" / "Jane Doe_41.html").unlink()
-    (tmp_path / "w.csv").write_bytes(ENGLISH)
-    code, _, err = run("export", "moodle", out, "--worksheet", tmp_path / "w.csv", "-o", tmp_path / "new")
-    assert code == 2
-    assert "write the pages again: autograder report" in err
+def test_what_people_decided_is_exported(run: Run, graded: Graded, tmp_path: Path) -> None:
+    """An override counts in the marks and stands in the feedback, without another report."""
+    out = graded(CLASS)
+    (out / "overrides.csv").write_text(
+        "student,stage,points,reason,who,when\ndoejane_101,jacobian,9,shown at the board,TA,2026-03-02\n",
+        encoding="utf-8",
+    )
+    (tmp_path / "g.csv").write_bytes(GRADEBOOK)
+    arguments = ("--gradebook", tmp_path / "g.csv", "--assignment", "77", "--any-maximum", "-o", tmp_path / "new")
+    assert run("export", "canvas", out, *arguments)[0] == 0
+    assert canvas_marks((tmp_path / "new" / "gradebook.csv").read_bytes())["101"] == "84"
+    assert run("export", "mailmerge", out, "-o", tmp_path / "mail.csv")[0] == 0
+    assert "shown at the board" in (tmp_path / "mail.csv").read_text(encoding="utf-8")
 
 
 def test_an_unknown_system_is_named(run: Run) -> None:

@@ -18,7 +18,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Graded:
-    """The stored results of a run, and how its feedback is to be shown."""
+    """The results of a run as people left them, and how its feedback is to be shown."""
 
     out: Path
     results: tuple[Result, ...]
@@ -31,6 +31,12 @@ class Graded:
 
         return {one.submission: feedback_text(one, self.policy, self.course) for one in self.results}
 
+    def pages(self) -> dict[str, bytes]:
+        """Return everybody's page, with the marks that are exported."""
+        from autograder.reports.feedback import feedback_page
+
+        return {one.submission: feedback_page(one, self.policy, self.course).encode() for one in self.results}
+
 
 def graded_options(function: Function) -> Function:
     """Add what every export of marks takes."""
@@ -42,7 +48,9 @@ def graded_options(function: Function) -> Function:
             metavar="SUBMISSION=ID",
             help="Whose a submission is, where it does not say; may be given again.",
         ),
-        click.option("--feedback", type=click.Choice(("full", "hint", "score")), help="[default: as in the run]"),
+        click.option(
+            "--feedback", type=click.Choice(("full", "hint", "score")), help="[default: the course's, at this time]"
+        ),
         click.option(
             "--course", "course_file", type=click.Path(path_type=Path), metavar="FILE", help="Settings of the course."
         ),
@@ -53,19 +61,19 @@ def graded_options(function: Function) -> Function:
 
 
 def stored(out: Path, course_file: Path | None, feedback: str | None) -> Graded:
-    """Read the results of a run, and how much of them students may see."""
+    """Read the results of a run with everything that people decided, and how much of them students may see now."""
     from datetime import UTC, datetime
 
-    from autograder.commands._reporting import say as note_on_stderr
+    from autograder.commands._reporting import say as note
     from autograder.commands.report import course_of, stored_results
     from autograder.marking.folder import decided
     from autograder.marking.lateness import policy_at
 
     course = course_of(out, course_file)
-    policy: Any = feedback or policy_at(course, datetime.now(UTC))
     found = decided(out, stored_results(out), course)
-    for note in found.notes:
-        note_on_stderr(note)
+    for each in found.notes:
+        note(each)
+    policy: Any = feedback or policy_at(course, datetime.now(UTC))
     return Graded(out, found.results, policy, course.title)
 
 

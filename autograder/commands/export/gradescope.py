@@ -23,7 +23,11 @@ import click
     "--seed", type=click.IntRange(0), metavar="S", help="Which cases are drawn. [default: the course's, or 0]"
 )
 @click.option("--examples", type=click.IntRange(1), metavar="N", help="Cases a stage. [default: the course's]")
-@click.option("--feedback", type=click.Choice(("full", "hint", "score")), help="How much a failed test says.")
+@click.option(
+    "--feedback",
+    type=click.Choice(("full", "hint", "score")),
+    help="How much a failed test says. [default: the course's, at the time]",
+)
 @click.option(
     "--visibility",
     type=click.Choice(("visible", "after_due_date", "after_published")),
@@ -75,7 +79,7 @@ def command(
     from autograder.writing import write_whole
 
     course = load_course(course_file)
-    choices: dict[str, Any] = {"feedback": feedback or course.feedback, "visibility": visibility}
+    choices: dict[str, Any] = {"feedback": feedback, "visibility": visibility}
     rules = Rules(
         seed=seed if seed is not None else (course.seed or 0),
         examples=examples or course.examples,

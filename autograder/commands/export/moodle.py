@@ -56,7 +56,6 @@ def command(
     autograder export moodle graded --worksheet sheet.csv --grade-column Karakter -o moodle
     """
     from autograder.commands.export._shared import decisions, read, stored, write
-    from autograder.exports.bundle import page_of
     from autograder.exports.moodle.feedback import feedback_archive
     from autograder.exports.moodle.worksheet import fill_worksheet
 
@@ -71,6 +70,5 @@ def command(
         any_maximum=any_maximum,
     )
     owners = filled.pairs.by_line
-    pages = {result.submission: page_of(out, result.submission) for result in owners.values()}
-    archive = feedback_archive(filled.folders, owners, pages)
+    archive = feedback_archive(filled.folders, owners, run.pages())
     write(folder, {"worksheet.csv": filled.data, "feedback.zip": archive}, filled.notes)

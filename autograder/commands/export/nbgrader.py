@@ -37,7 +37,6 @@ def command(course_file: Path | None, assignment: str, out: Path | None, folder:
     from autograder.commands.export._shared import say, stored, write_new, write_tree
     from autograder.course import load_course
     from autograder.errors import UsageError
-    from autograder.exports.bundle import page_of
     from autograder.exports.nbgrader.course import course_files
     from autograder.exports.nbgrader.feedback import feedback_tree
     from autograder.problems.problem import worked_problem
@@ -50,6 +49,5 @@ def command(course_file: Path | None, assignment: str, out: Path | None, folder:
         write_new(folder, files)
     else:
         run = stored(out, course_file, None)
-        pages = {one.submission: page_of(out, one.submission) for one in run.results}
-        write_tree(folder, feedback_tree(run.results, pages, assignment))
+        write_tree(folder, feedback_tree(run.results, run.pages(), assignment))
         say([], [folder / "feedback"])

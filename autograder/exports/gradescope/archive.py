@@ -23,13 +23,16 @@ _LEFT_OUT = {"__pycache__", "specimens"}
 
 @dataclass(frozen=True)
 class Rules:
-    """What holds for every submission that this archive grades."""
+    """What holds for every submission that this archive grades.
+
+    `feedback` is None where the course file decides, which may know one policy before the due date and one after it.
+    """
 
     seed: int
     examples: int
     time_limit: float
     memory_mib: int
-    feedback: Policy
+    feedback: Policy | None
     min_confinement: str
     visibility: Visibility
 

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import msgspec
 
 from autograder.exports.words import case_text, general, total
-from autograder.reports.feedback import Policy
+from autograder.reports.feedback import Policy, shown_notes
 from autograder.reports.wording import MARKS, visible
 from autograder.verdicts import CheckVerdict, Result, StageVerdict
 
@@ -52,7 +52,7 @@ def results_json(
         return failure_json(visibility=visibility)
     said = [f"{visible(course)}: {total(result)}", general(result), *map(visible, notes)]
     if policy != "score":
-        said += [f"Skipped, for it did not run: {visible(note)}" for note in result.notes]
+        said += [f"About your file: {visible(note)}" for note in shown_notes(result, policy)]
         said += [f"Remark, which costs nothing: {visible(text)}" for stage in result.stages for text in stage.remarks]
     return _encode(
         {
