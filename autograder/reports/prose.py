@@ -1,6 +1,7 @@
 """A student's markdown as HTML that can do nothing: no script, no link to follow, no picture from elsewhere.
 
-Text becomes text, formulas stay as they were typed, pictures are shown only where intake has kept their data.
+Text becomes text, formulas become MathML or stay as they were typed, and pictures are shown only where intake
+has kept their data.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from markdown_it.rules_inline import StateInline
 from markdown_it.token import Token
 from markupsafe import Markup, escape
 
+from autograder.reports.formula import mathml
 from autograder.reports.wording import visible
 
 LONGEST = 20_000  # characters that are shown of one answer
@@ -34,8 +36,8 @@ def prose(text: str, images: Mapping[str, str] | None = None) -> Markup:
 
     Examples
     --------
-    >>> print(prose("*zero*: $x^{(2)} = x^{(1)}$ <script>"), end="")
-    <p><em>zero</em>: <code class="math">x^{(2)} = x^{(1)}</code> &lt;script&gt;</p>
+    >>> print(prose("*zero*: $x^2$ <script>"), end="")
+    <p><em>zero</em>: <math><msup><mi>x</mi><mn>2</mn></msup></math> &lt;script&gt;</p>
     """
     shown = text if len(text) <= LONGEST else f"{text[:LONGEST]}\n\n(cut after {LONGEST} characters)"
     shown = "\n".join(_printable(line) for line in shown.split("\n"))
@@ -84,7 +86,7 @@ def _math(state: StateInline, silent: bool) -> bool:
 
 
 def _render_math(_: RendererHTML, tokens: Sequence[Token], index: int, __: Any, ___: Any) -> str:
-    return f'<code class="math">{escape(tokens[index].content)}</code>'
+    return mathml(tokens[index].content) or f'<code class="math">{escape(tokens[index].content)}</code>'
 
 
 def _render_image(_: RendererHTML, tokens: Sequence[Token], index: int, __: Any, env: Any) -> str:

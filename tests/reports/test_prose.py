@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import re
 import time
+from xml.etree import ElementTree
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from markupsafe import escape
 
+from autograder.reports.formula import mathml
 from autograder.reports.prose import LONGEST, prose
 from autograder.reports.written import default_guide, written_page
 from tests.marking.written import EVIL
 
 PICTURE = "data:image/png;base64,iVBORw0KGgo="
-ALLOWED = {"p", "em", "strong", "code", "pre", "ul", "ol", "li", "blockquote", "br", "hr", "table", "thead", "tbody",
-           "tr", "th", "td", "img", "span"}  # fmt: skip
+TEXT = {"p", "em", "strong", "code", "pre", "ul", "ol", "li", "blockquote", "br", "hr", "img", "span"}
+TABLE = {"table", "thead", "tbody", "tr", "th", "td"}
+MATHS = {"math", "mrow", "mi", "mn", "mo", "msub", "msup", "msubsup", "mfrac", "msqrt", "mover"}
+ALLOWED = TEXT | TABLE | MATHS
 
 
 def test_markdown_formulas_and_pictures_are_shown() -> None:
@@ -24,7 +29,7 @@ def test_markdown_formulas_and_pictures_are_shown() -> None:
     shown = prose(text, {"p.png": PICTURE})
     for words in (
         "<strong>b</strong>",
-        '<code class="math">a_1 * b_2 * c</code>',
+        "<math><mrow><msub><mi>a</mi><mn>1</mn></msub><mo>*</mo><msub><mi>b</mi><mn>2</mn></msub><mo>*</mo><mi>c</mi>",
         "<li>x</li>",
         "<td>1</td>",
         f'<img src="{PICTURE}" alt="plot">',
@@ -73,6 +78,38 @@ def test_no_answer_takes_long(piece: str) -> None:
     shown = prose(piece * 60_000)
     assert time.process_time() - start < 5.0
     assert len(shown) < 40 * LONGEST
+
+
+@pytest.mark.parametrize(
+    ("formula", "shown"),
+    [
+        (r"H\Delta\mathbf x", '<mrow><mi>H</mi><mi>Δ</mi><mrow class="bold"><mi>x</mi></mrow></mrow>'),
+        (r"x_i^{2}", "<msubsup><mi>x</mi><mi>i</mi><mn>2</mn></msubsup>"),
+        (r"\frac{1}{\sqrt{n}}", "<mfrac><mn>1</mn><msqrt><mi>n</mi></msqrt></mfrac>"),
+        ("a<b", "<mrow><mi>a</mi><mo>&lt;</mo><mi>b</mi></mrow>"),
+        (r"10^{-16} \approx 0", "<mo>≈</mo>"),
+    ],
+)
+def test_a_formula_becomes_mathml(formula: str, shown: str) -> None:
+    """Letters, numbers, signs, fractions, and what stands above and below."""
+    assert shown in str(mathml(formula))
+
+
+@pytest.mark.parametrize(
+    "formula", [r"\begin{matrix}", "a^", "x^2^3", "}", "{", r"\input{f}", "{" * 99, "x" * 999, "a & b"]
+)
+def test_a_formula_that_is_not_understood_stays_as_it_was_typed(formula: str) -> None:
+    """Rather than half of it."""
+    assert mathml(formula) is None
+    assert f'<code class="math">{escape(formula)}</code>' in prose(f"${formula}$")
+
+
+@given(st.text(max_size=60))
+def test_any_formula_is_well_formed(formula: str) -> None:
+    """Every element is closed, nothing of the text is one."""
+    shown = mathml(formula)
+    if shown is not None:
+        ElementTree.fromstring(shown)
 
 
 def test_the_guide_is_that_of_the_worked_solution() -> None:
