@@ -20,6 +20,7 @@ _WITNESSES = 3
 _NOTHING: Mapping[str, Any] = {
     "interrupted": False,
     "confinement": "",
+    "locks": "",
     "seed": None,
     "examples": None,
     "corpus": "",

@@ -230,3 +230,14 @@ def test_mark_serves_the_pile_and_writes_the_reports_at_the_end(
     assert "5 of 5 answers wait" in err
     assert "ann  95 -> 97 (+2)" in err
     assert rows(out / "grades.csv")["ann"]["score"] == "97"
+
+
+def test_exports_show_what_the_reports_show(run: Run, out: Path, tmp_path: Path) -> None:
+    """Marks, comments and overrides reach the files for other systems."""
+    run("report", out, "--marks", fill(out, ann2="2", ann3="2"))
+    (out / "overrides.csv").write_text("student,stage,points,reason,who,when\nann,residual,14,late proof,Prof,today\n")
+    assert run("export", "mailmerge", out, "-o", tmp_path / "mail.csv")[0] == 0
+    [ann] = [row for name, row in rows(tmp_path / "mail.csv").items() if name == "ann"]
+    assert ann["score"] == "98"
+    assert "Question 2: see page 3" in ann["feedback"]
+    assert "residual set to 14, was 15: late proof (Prof, today)" in ann["feedback"]
