@@ -89,7 +89,7 @@ class _Grading:
         self.points = {name: course.points[name] for name in course.stages}
         self.results: dict[str, Result] = {}
         self.reused = 0
-        self.level = ""
+        self.level = self.locks = ""
         self.corpus: Corpus = draw_corpus(self.stages, settings.seed, settings.examples)
 
     def run(self) -> Run:
@@ -98,6 +98,7 @@ class _Grading:
         try:
             with crew(self._orders(), self.settings) as pool:
                 self.level = level_of(pool, self.settings)
+                self.locks = "" if pool.confinement is None else f"{self.level}: {pool.confinement.detail}"
                 self._confirm(pool, self._first_pass(pool))
                 explain_all(pool, self.submissions, self.results, self._finish_explained)
         except KeyboardInterrupt:
@@ -225,6 +226,7 @@ class _Grading:
                 "submitted": submission.submitted,
                 "late": submission.late,
                 "confinement": self.level,
+                "locks": self.locks,
                 "seed": self.settings.seed,
                 "grader_version": autograder.__version__,
                 "fingerprint": self._fingerprint(submission),
@@ -275,6 +277,7 @@ class _Grading:
             examples=self.settings.examples,
             corpus=self.corpus.digest,
             confinement=self.level,
+            locks=self.locks,
             versions=versions(),
             settings={
                 "time_limit": self.settings.time_limit,

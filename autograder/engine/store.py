@@ -31,6 +31,7 @@ class RunRecord(msgspec.Struct, frozen=True, kw_only=True):
     examples: int
     corpus: str
     confinement: str
+    locks: str = ""
     versions: dict[str, str]
     settings: dict[str, object]
     submissions: int

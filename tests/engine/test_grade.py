@@ -72,6 +72,8 @@ def test_every_submission_has_a_result(uploads, tmp_path):
     record = json.loads((tmp_path / "out/run.json").read_bytes())
     assert record["seed"] == 0
     assert record["confinement"] in {"full", "seccomp"}
+    assert record["locks"] == run.results[0].locks
+    assert "andlock" in record["locks"]  # there, or said to be missing
     assert record["graded_now"] == 5
 
 
