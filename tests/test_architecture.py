@@ -207,7 +207,11 @@ def test_a_broken_arrow_is_seen(tmp_path: Path, room: str, text: str) -> None:
         ("assignment.posegraph", "import autograder.errors", "posegraph may import nothing of ours"),
         (FORK_SERVER, "from autograder.errors import SandboxError", "nothing of ours is beside a student's code"),
         (FORK_SERVER, "from . import host", "nothing of ours is beside a student's code"),
-        ("autograder.reports.html", "import autograder.render.stub", "reports may import errors, marking, render.figure, verdicts"),
+        (
+            "autograder.reports.html",
+            "import autograder.render.stub",
+            "reports may import errors, marking, render.figure, verdicts",
+        ),
         ("autograder.__init__", "import autograder.errors", "autograder/__init__.py may import nothing of ours"),
         ("autograder.attic.old", "", "There is a room `attic`, which the table does not know"),
     ],

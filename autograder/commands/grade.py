@@ -203,15 +203,17 @@ def grade_and_report(
     from autograder.marking.marks import read_marks
     from autograder.marking.overrides import read_overrides
 
-    read_marks(out), read_overrides(out)  # what is wrong with them is better known before an hour of grading
+    # What is wrong with these files is better known before an hour of grading than after it.
+    read_marks(out)
+    read_overrides(out)
+    if feedback is not None:
+        course = replace(course, feedback=cast("Any", feedback), before_due=None)
+    course = replace(course, memory_mib=memory or course.memory_mib, output_mib=output_limit or course.output_mib)
     last = stored_course(out)
     if last is not None and last != course:
         say(
             f"{out} was written with other settings of the course; those of this command hold now, for everybody in it."
         )
-    if feedback is not None:
-        course = replace(course, feedback=cast("Any", feedback), before_due=None)
-    course = replace(course, memory_mib=memory or course.memory_mib, output_mib=output_limit or course.output_mib)
     given: dict[str, Any] = {
         "seed": seed if seed is not None else (course.seed or 0),
         "examples": examples or course.examples,

@@ -219,6 +219,7 @@ def test_mark_serves_the_pile_and_writes_the_reports_at_the_end(
     run: Run, out: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Its address is printed; what was marked is in the reports when it ends."""
+
     def serve(desk: Desk, poll_interval: float = 0.5) -> None:
         desk.pile.give(0, "2", "")
         raise KeyboardInterrupt
@@ -241,3 +242,15 @@ def test_exports_show_what_the_reports_show(run: Run, out: Path, tmp_path: Path)
     assert ann["score"] == "98"
     assert "Question 2: see page 3" in ann["feedback"]
     assert "residual set to 14, was 15: late proof (Prof, today)" in ann["feedback"]
+
+
+def test_other_settings_for_the_same_folder_are_announced(run: Run, out: Path, upload: Path, tmp_path: Path) -> None:
+    """The same command twice says nothing; a forgotten --course does."""
+    course = tmp_path / "course.toml"
+    course.write_text("[points]\nresidual = 5\n")
+    words = "written with other settings"
+    assert words not in run("grade", upload, "-o", out, "--feedback", "full")[2]
+    assert words in run("grade", upload, "-o", out, "--course", course)[2]
+    assert words not in run("grade", upload, "-o", out, "--course", course)[2]
+    assert words in run("grade", upload, "-o", out, "--feedback", "hint")[2]
+    assert words not in run("grade", upload, "-o", out, "--feedback", "hint")[2]
