@@ -191,7 +191,7 @@ class _Grading:
             bonus=bonus,
             provisional=awaiting > 0,
             awaiting=awaiting,
-            stages=answer.stages,
+            stages=tuple(sorted(answer.stages, key=lambda stage: self.course.stages.index(stage.name))),
             notes=(*filter(None, [self.assigned[submission.id].note]), *submission.notes, *answer.notes),
             flags=self._flags(submission, answer),
             written=answer.written,

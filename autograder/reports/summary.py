@@ -44,8 +44,12 @@ class Trouble:
 
 
 def stage_names(results: Iterable[Result]) -> list[str]:
-    """Names of all stages, in the order in which the results hold them."""
-    return list(dict.fromkeys(stage.name for result in results for stage in result.stages))
+    """Names of all stages, in the order in which the results hold them; a bonus that nobody tried is left out."""
+    names: dict[str, bool] = {}
+    for result in results:
+        for stage in result.stages:
+            names[stage.name] = names.get(stage.name, False) or not (stage.bonus and stage.status == "missing")
+    return [name for name, shown in names.items() if shown]
 
 
 def stage_summaries(results: Sequence[Result]) -> list[StageSummary]:
@@ -106,7 +110,8 @@ def troubles(results: Iterable[Result]) -> list[Trouble]:
     for result in results:
         for stage in result.stages:
             order.setdefault(stage.name, len(order))
-            if stage.status not in FULL and not is_consequence(stage) and not _is_read(stage):
+            lost = stage.status not in FULL and not (stage.bonus and stage.status == "missing")
+            if lost and not is_consequence(stage) and not _is_read(stage):
                 key = (stage.name, stage.slip, _kind(stage))
                 words.setdefault(key[2], reason(stage))
                 found.setdefault(key, []).append(result.submission)

@@ -26,3 +26,10 @@ def normal_equations(J, omega, f):
 def gauss_newton_step(x, graph):
     H, b = normal_equations(jacobian(x, graph), information_matrix(graph), residual(x, graph))
     return np.linalg.solve(H, -b)
+
+
+# My answers, for the worked example.
+iterates = np.array([[0, 1.1, 2.1, 3.2, 0.5], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1]])
+conclusion = "C"
+written_2 = "From x^(1) on nothing changes: b is 0 there up to rounding, so dx is 0 too."
+written_3 = "Yes. f is affine in x, so J never changes and one step lands on the minimum from any start."

@@ -58,3 +58,10 @@ if __name__ == "__main__":
     for step in range(3):
         x = x + gauss_newton_step(x, g)
         print(step, x)
+
+
+# My answers, for the worked example.
+iterates = np.array([[0, 1.1, 2.1, 3.2, 0.5], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1]])
+conclusion = "C"
+written_2 = "The second and third step are zero."
+written_3 = "The problem is linear least squares."

@@ -36,3 +36,10 @@ def gauss_newton_step(x, graph):
     root = np.sqrt(information_matrix(graph))
     Q, R = qr(root @ jacobian(x, graph))
     return np.linalg.solve(R, -Q.T @ (root @ residual(x, graph)))
+
+
+# My answers, for the worked example.
+iterates = np.array([[0, 1.1, 2.1, 3.2, 0.5], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1]])
+conclusion = "C"
+written_2 = "x^(2) and x^(3) equal x^(1)."
+written_3 = "J does not depend on x. With a range to a beacon beside the line it would."

@@ -37,3 +37,10 @@ def gauss_newton_step(x, graph):
     J = jacobian(x, graph)
     H, b = normal_equations(J.T, information_matrix(graph), residual(x, graph))
     return np.linalg.solve(H, -b)
+
+
+# My answers, for the worked example.
+iterates = np.array([[0, 1.1, 2.1, 3.2, 0.5], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1]])
+conclusion = "C"
+written_2 = "No change after x^(1)."
+written_3 = "It is linear."

@@ -32,3 +32,10 @@ def gauss_newton_step(x, graph):
     H, b = normal_equations(jacobian(x, graph), information_matrix(graph), residual(x, graph))
     dx = np.linalg.solve(H, -b)
     return np.round(dx, 4)
+
+
+# My answers, for the worked example.
+iterates = np.array([[0, 1.1, 2.1, 3.2, 0.5], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1]])
+conclusion = "C"
+written_2 = "The second step is zero to four decimals."
+written_3 = "The residual is linear in x."

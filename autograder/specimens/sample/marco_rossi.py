@@ -37,3 +37,10 @@ def gauss_newton_step(x, graph):
     H, b = normal_equations(jacobian(x, graph), information_matrix(graph), residual(x, graph))
     L = np.linalg.cholesky(H)
     return np.linalg.solve(L.T, np.linalg.solve(L, -b))
+
+
+# My answers, for the worked example.
+iterates = np.array([[0, 1.1, 2.1, 3.2, 0.5], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1]])
+conclusion = "E"
+written_2 = "The step becomes zero after the first one."
+written_3 = "Because we started from dead reckoning, which is already good."

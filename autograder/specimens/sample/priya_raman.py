@@ -44,3 +44,10 @@ def show(x):
 
 for _ in tqdm(range(3)):
     show(np.array([0.0, 1.0, 1.9, 2.9, 0.1]))
+
+
+# My answers, for the worked example.
+iterates = np.array([[0, 1.1, 2.1, 3.2, 0.5], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1], [0, 1.0, 1.9, 2.9, 0.1]])
+conclusion = "C"
+written_2 = "dx is about 1e-16, which is rounding."
+written_3 = "Yes: linear, so the quadratic model of the cost is the cost."
