@@ -75,6 +75,8 @@ def check_overrides(overrides: Sequence[Override], results: Sequence[Result]) ->
     """List line and reason of every override that changes nothing or too much: unknown, beyond the maximum, twice."""
     names = {result.submission for result in results} | {result.student_id for result in results if result.student_id}
     most = {stage.name: stage.max_score for result in results for stage in result.stages}
+    bonus = {stage.name: stage.max_score for result in results for stage in result.stages if stage.bonus}
+    whole = max((result.max_score for result in results), default=0.0) + sum(bonus.values())
     complaints = []
     seen: dict[tuple[str, str], int] = {}
     for one in overrides:
@@ -87,6 +89,8 @@ def check_overrides(overrides: Sequence[Override], results: Sequence[Result]) ->
             complaints.append((one.line, f"stage is {one.stage!r}, expected {', '.join(most)} or {TOTAL}"))
         elif one.stage in most and one.points > most[one.stage]:
             complaints.append((one.line, f"{one.points:g} points, but {one.stage} has {most[one.stage]:g}"))
+        elif one.stage == TOTAL and one.points > whole:
+            complaints.append((one.line, f"{one.points:g} points, but there are {whole:g}, bonus included"))
         elif key in seen:
             complaints.append((one.line, f"{one.student} has an override of {one.stage} in line {seen[key]} already"))
         seen.setdefault(key, one.line)

@@ -30,6 +30,7 @@ DUE = datetime(2026, 11, 20, 23, 59, tzinfo=UTC)
         ("ana,residual,1,r,Prof,today", "no submission or student id 'ana'; did you mean ann"),
         ("ann,resid,1,r,Prof,today", "stage is 'resid', expected residual, "),
         ("ann,residual,16,r,Prof,today", "16 points, but residual has 15"),
+        ("ann,total,880,r,Prof,today", "880 points, but there are "),
         (
             "ann,residual,1,r,Prof,today\nann,residual,2,r,Prof,today",
             "Line 3: ann has an override of residual in line 2",
