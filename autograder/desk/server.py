@@ -11,7 +11,7 @@ import secrets
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs
 
 from autograder.desk.page import answer_page, content_policy
 from autograder.desk.pile import Pile
@@ -41,6 +41,9 @@ class Desk(ThreadingHTTPServer):
         self.token = secrets.token_urlsafe(24)
         super().__init__(("127.0.0.1", port), _Handler)
         self.hosts = {f"{name}:{self.server_port}" for name in ("127.0.0.1", "localhost")}
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Say nothing of a browser that hung up; its next request is answered as any other."""
 
     @property
     def address(self) -> str:
@@ -111,7 +114,7 @@ class _Handler(BaseHTTPRequestHandler):
         if self.headers.get("Host", "") not in self.server.hosts:
             self._refuse(HTTPStatus.FORBIDDEN, "This server answers to its own name only.")
             return None
-        _, _, path = urlsplit(self.path).path.partition("/")
+        _, _, path = self.path.partition("?")[0].partition("/")
         token, slash, rest = path.partition("/")
         if not slash or not secrets.compare_digest(token.encode("utf-8", "replace"), self.server.token.encode()):
             self._refuse(HTTPStatus.NOT_FOUND, "Open the whole address that the terminal shows.")

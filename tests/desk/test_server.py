@@ -96,7 +96,7 @@ def test_another_name_of_this_machine_is_refused(desk: Desk, tmp_path: Path, hos
     assert read_marks(tmp_path) == {}
 
 
-WRONG = ["/", "/1", "/wrong/1", "/{token}x/1", "/{token}"]
+WRONG = ["/", "/1", "http://[bad/1", "/wrong/1", "/{token}x/1", "/{token}"]
 BELOW = ["99", "../etc/passwd", "0", "-1", "1.5", "%31", "1/", "1" * 5000]
 
 
