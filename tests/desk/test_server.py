@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import json
+import socket
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -96,7 +97,7 @@ def test_another_name_of_this_machine_is_refused(desk: Desk, tmp_path: Path, hos
     assert read_marks(tmp_path) == {}
 
 
-WRONG = ["/", "/1", "http://[bad/1", "/wrong/1", "/{token}x/1", "/{token}"]
+WRONG = ["/", "/1", "/wrong/1", "/{token}x/1", "/{token}"]
 BELOW = ["99", "../etc/passwd", "0", "-1", "1.5", "%31", "1/", "1" * 5000]
 
 
@@ -106,6 +107,13 @@ def test_another_address_is_refused(desk: Desk, path: str) -> None:
     status, text, _ = ask(desk, path.replace("{token}", desk.token))
     assert status == 404
     assert desk.token not in text
+
+
+def test_an_address_that_is_none_is_refused(desk: Desk) -> None:
+    """Bytes that no browser sends get a refusal too."""
+    with socket.create_connection(("127.0.0.1", desk.server_port), timeout=10) as line:
+        line.sendall(f"GET http://[bad/1 HTTP/1.1\r\nHost: 127.0.0.1:{desk.server_port}\r\n\r\n".encode())
+        assert b" 404 " in line.recv(100)
 
 
 @pytest.mark.parametrize("origin", ["http://evil.example", "null", "https://127.0.0.1:{port}", "http://127.0.0.1:1"])
