@@ -15,6 +15,7 @@ from autograder.errors import SandboxError, UsageError
 
 CONNECT_SECONDS = 10.0
 PATIENCE_SECONDS = 60.0  # without any fit worker, before the run is given up
+UNFIT_SECONDS = 5.0  # as long as all that are there are unfit
 LEVELS = ("none", "seccomp", "full")
 KEPT = "Results so far are kept; the same command goes on from there."
 
@@ -27,6 +28,7 @@ class Member:
     answer: Any  # the future of its greeting, until that is read
     ready: Ready | None = None
     unfit: str = ""
+    asked: float = field(default_factory=time.monotonic)
     tasks: set[int] = field(default_factory=set)
     alone: bool = False
 
@@ -105,15 +107,17 @@ class Members:
         for each in self.all.values():
             if each.answer is not None and each.answer.done():
                 self._read(each)
+            elif each.answer is not None and time.monotonic() - each.asked > PATIENCE_SECONDS:
+                each.answer, each.unfit = None, "it does not answer"
         if self.fit:
             self._last_fit = time.monotonic()
-        elif time.monotonic() - self._last_fit > PATIENCE_SECONDS or self._none_fit():
+        elif time.monotonic() - self._last_fit > (UNFIT_SECONDS if self._none_fit() else PATIENCE_SECONDS):
             raise SandboxError(self._why_nobody())
         return gone
 
     def greet(self, member: Member) -> None:
         """Tell a worker the orders, and ask what it gives."""
-        member.ready = None
+        member.ready, member.asked = None, time.monotonic()
         member.answer = self.submit(member.address, remote.prepare, self.run, self.orders)
         self.all[member.address] = member
 

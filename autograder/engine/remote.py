@@ -63,6 +63,8 @@ def prepare(run: str, orders: bytes) -> bytes:
                 _held[run] = _Held.of(msgspec.msgpack.decode(orders, type=Orders))
         except AutograderError as error:
             return msgspec.msgpack.encode(Trouble(str(error), fatal=True, lost=isinstance(error, SandboxLost)))
+        except Exception as error:  # noqa: BLE001 - an exception would travel pickled, and may not survive that
+            return msgspec.msgpack.encode(Trouble(f"{type(error).__name__}: {error}", fatal=True))
         given = _held[run].sandbox.confinement
         return msgspec.msgpack.encode(Greeting(Ready(given.level, given.detail), versions()))
 
