@@ -120,4 +120,9 @@ def main() -> None:
 
 if __name__ == "__main__":
     assert REFERENCE
-    main()
+    if sys.argv[1:2] == ["--peers"]:
+        from tests.benchmarks.peers.__main__ import main as against_peers
+
+        against_peers(sys.argv[2:])
+    else:
+        main()
