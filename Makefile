@@ -43,7 +43,7 @@ test: $(VENV)/ready
 	@echo "--- types: mypy"
 	@$(PY) -m mypy --no-error-summary
 	@echo "--- tests: pytest"
-	@$(PY) -m pytest -q --cov --cov-report=term
+	@$(PY) -m pytest -q -n 2 --dist loadfile --cov --cov-report=term
 
 interop: $(VENV)/ready
 	@INTEROP=1 INTEROP_ENVIRONMENTS=$(CURDIR)/$(VENV)/interop $(PY) -m pytest -q -s tests/exports/interop

@@ -1,8 +1,9 @@
-"""Explain a wrong stage: true sentences about it, and the smallest case that shows it.
+"""Explain a wrong stage: true sentences about it, and a small case that shows it.
 
-This is paid once for each behaviour group: by its member with the smallest digest of the source
-for a mistake that nobody has met before, by the slip's own code for a known one. Every member then
-confirms the witness by one call of its own, or gets its own.
+A known mistake is shown by the smallest case that its own code gets wrong, found once. Any other is
+shown by the simplest small case that the submission itself gets wrong; only where all of these are
+right is one searched for and reduced, once for each behaviour group, by the member with the smallest
+digest of the source. Every member confirms what it is shown by a call of its own.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from msgspec.structs import replace
 from autograder.diagnosis.facts import Answered, facts
 from autograder.diagnosis.probes import Probe, Values, derivative_probe, probes
 from autograder.diagnosis.recognise import trusted_call
-from autograder.diagnosis.witness import smallest_witness
+from autograder.diagnosis.witness import small_cases, smallest_witness
 from autograder.engine import evidence
 from autograder.engine.collect import Reply, judged
 from autograder.engine.follow import array_of
@@ -67,35 +68,45 @@ class Explainer:
             )
         return Explanation(witness=self._of_slip[identifier])
 
-    def unknown(self, session: Session, stage: Stage) -> Explanation:
-        """Explain what this submission gets wrong, by asking it again."""
-
-        def is_wrong(case: Case) -> bool:
-            return not self._ask(session, stage, case).passed
-
-        found = [*self._facts(session, stage), *self._probed(session, stage)]
-        return Explanation(tuple(found), smallest_witness(stage.ladder.name, is_wrong))
-
     def explain(
         self, session: Session, verdict: StageVerdict, given: Explanation | None
     ) -> tuple[StageVerdict, Explanation]:
-        """Put an explanation into a verdict: the known one, the group's, or one of its own.
+        """Put an explanation into a verdict; return both.
 
-        Returns the verdict and the explanation that it now holds.
+        A known mistake is shown by the witness of its own code. Any other is described by asking
+        this submission itself, and shown by the first of the small cases that it gets wrong: nobody
+        else's answers count, for another member of the group may lie when it is asked again. Only
+        where all small cases are right is a witness searched for, once for the group.
         """
         first = next(check.name for check in verdict.checks if not check.passed and not check.points)
         stage = self.plan.stage(verdict.name).facet(first)
-        known = self.known(stage, verdict.slip) if given is None and verdict.slip is not None else given
-        if known is not None:
-            if verdict.slip is None:  # what is said of a submission is found on itself, never on its group
-                known = Explanation((*self._facts(session, stage), *self._probed(session, stage)), known.witness)
-            confirmed = self._confirmed(session, stage, verdict, known)
-            if confirmed is not None:
-                return confirmed, known
-        own = self.unknown(session, stage)
         if verdict.slip is not None:
-            own = Explanation((), own.witness)  # its name says more than any fact
+            known = self.known(stage, verdict.slip) if given is None else given
+            confirmed = self._confirmed(session, stage, verdict, known)
+            return (verdict, known) if confirmed is None else (confirmed, known)
+        found = (*self._facts(session, stage), *self._probed(session, stage))
+        witness = self._first_wrong(session, stage)
+        if witness is None and given is not None:
+            shared = Explanation(found, given.witness)
+            confirmed = self._confirmed(session, stage, verdict, shared)
+            if confirmed is not None:
+                return confirmed, shared
+        own = Explanation(found, witness or self._searched(session, stage))
         return self._confirmed(session, stage, verdict, own) or verdict, own
+
+    def _first_wrong(self, session: Session, stage: Stage) -> Case | None:
+        """Ask all small cases at once; return the simplest that is wrong."""
+        cases = small_cases(stage.ladder.name)
+        task = Task(stage, Rung("witness", "small cases", 0.0, cases), cases, -1)
+        calls = [call for case in cases for call in stage.calls(case)]
+        reply = judged(session, self.plan, task, session.call(self.plan.batch(stage, calls)))
+        if reply.failure is not None or reply.right.all():
+            return None
+        return cases[int(np.argmin(reply.right))]
+
+    def _searched(self, session: Session, stage: Stage) -> Case | None:
+        """Search for a case that this submission gets wrong, and have it reduced."""
+        return smallest_witness(stage.ladder.name, lambda case: not self._ask(session, stage, case).passed)
 
     def _confirmed(
         self, session: Session, stage: Stage, verdict: StageVerdict, explanation: Explanation

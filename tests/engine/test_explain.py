@@ -5,6 +5,7 @@ import pytest
 from autograder.engine.collect import collect
 from autograder.engine.explain import Explainer, Explanation, wants_explanation
 from autograder.engine.judge import Judge
+from autograder.problems.cases import key
 from autograder.sandbox.frames import Source
 from autograder.sandbox.host import Limits, Sandbox
 from autograder.stages.catalogue import slips
@@ -129,14 +130,22 @@ def test_a_known_mistake_is_shown_on_a_small_graph(explain, slip):
     assert known.witness[1].n_poses <= max(3, slip.minimum_poses)
 
 
-def test_an_explanation_that_does_not_fit_is_replaced(explain, plan):
-    """A member that gets the group's witness right gets a witness of its own."""
-    _, known = explain(wrapped("residual", "return 1.25 * value"), "residual")
+def test_nobody_is_shown_what_another_member_of_the_group_says(explain, plan):
+    """With or without a witness from its group, a submission gets the facts and the case that are its own."""
     judge, explainer = Judge(plan), Explainer(plan)
     text = wrapped("residual", "return value + (graph.n_poses > 2) * 0.5")
     source = Source(kind="module", cells=[text], name="submission.py")
+    _, other = explain(wrapped("residual", "return 1.25 * value"), "residual")
     with Sandbox(plan.inputs, Limits(cpu_seconds=1.0)) as sandbox, sandbox.open(source) as session:
         verdict = judge.judge(collect(session, plan))[0]
-        _, own = explainer.explain(session, verdict, Explanation((), known.witness))
-    assert known.witness[1].n_poses == 2
+        alone, own = explainer.explain(session, verdict, None)
+        told, still = explainer.explain(session, verdict, Explanation(("A lie.",), other.witness))
     assert own.witness[1].n_poses == 3
+    assert told == alone
+    assert key(still.witness) == key(own.witness)
+
+
+def test_a_mistake_that_no_small_case_shows_is_searched_for(explain):
+    """Wrong from four poses on: the search finds a graph of four."""
+    _, known = explain(wrapped("residual", "return value + (graph.n_poses > 3) * 0.5"), "residual")
+    assert known.witness[1].n_poses == 4

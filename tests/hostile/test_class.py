@@ -32,10 +32,9 @@ def same(alone: Graded, together: Graded, name: str) -> bool:
 def test_the_honest_ones_do_not_notice(alone: Graded, together: Graded, honest_names: list[str]) -> None:
     """Result and page of every honest submission are the same, to the byte, alone and among hostile ones."""
     changed = [name for name in honest_names if not same(alone, together, name)]
-    assert set(changed) <= {neighbours.SHARED_MISTAKE}
+    assert changed == []
 
 
-@pytest.mark.xfail(reason="the witness of a group is found by asking one member, and that one may lie", strict=True)
 def test_a_member_of_its_group_cannot_mislead_an_honest_one(alone: Graded, together: Graded) -> None:
     """Nobody's explanation depends on what another member of the group answers after the exam."""
     assert same(alone, together, neighbours.SHARED_MISTAKE)
