@@ -25,7 +25,7 @@ from autograder.problems.roster import normal_id
 from autograder.problems.secret import Secret
 from autograder.problems.variants import Variant, data_fields, draw_variant, published
 
-__all__ = ["COLUMNS", "Ledger", "read_ledger", "write_ledger"]
+__all__ = ["COLUMNS", "Ledger", "ledger_text", "read_ledger", "write_ledger"]
 
 COLUMNS = ("student_id", "family", "variant", "data")
 _NUMBER = re.compile(r"-?\d{1,9}(\.\d{1,9})?", re.ASCII)
@@ -138,6 +138,11 @@ def read_ledger(path: Path) -> Ledger:
     return ledger
 
 
+def ledger_text(ledger: Ledger) -> bytes:
+    """Return a ledger as it stands in its file."""
+    return "".join(_lines(ledger)).encode("utf-8")
+
+
 def write_ledger(path: Path, ledger: Ledger) -> bool:
     """Write a ledger in one stroke; return whether anything was new.
 
@@ -146,7 +151,7 @@ def write_ledger(path: Path, ledger: Ledger) -> bool:
     UsageError
         Where the file holds a line that the ledger does not begin with: nothing is ever taken back.
     """
-    text = "".join(_lines(ledger)).encode("utf-8")
+    text = ledger_text(ledger)
     old = path.read_bytes() if path.exists() else b""
     if old == text:
         return False

@@ -75,6 +75,22 @@ def test_names_and_secrets_stay_at_home(run: Run, tmp_path: Path, ledger: Ledger
     assert not [name for name, data in held.items() if SECRET.key in data or b"Ann Lee" in data and "csv" in name]
 
 
+def test_term_and_secret_draw_what_the_release_drew(run: Run, tmp_path: Path) -> None:
+    """Without a ledger the archive holds the one of the release and the seed of the term, and no secret."""
+    roster, secret = tmp_path / "class.csv", tmp_path / "secret.txt"
+    roster.write_text("student_id,name,email\ns1,Ann Lee,ann@uni.edu\n", encoding="utf-8")
+    secret.write_bytes(SECRET.key)
+    drawn = ("--roster", roster, "--term", "2026S", "--secret-file", secret)
+    assert run("release", *drawn, "-o", tmp_path / "release")[0] == 0
+    code, _, err = run("export", "gradescope", *drawn, "-o", tmp_path / "a.zip")
+    assert code == 0, err
+    with zipfile.ZipFile(tmp_path / "a.zip") as archive:
+        held = {name: archive.read(name) for name in archive.namelist()}
+    assert (tmp_path / "release" / "staff" / "variants.csv").read_bytes() in held.values()
+    assert json.loads(held["rules.json"])["seed"] == SECRET.seed("2026S")
+    assert not [name for name, data in held.items() if SECRET.key in data]
+
+
 def test_the_lock_keeps_what_grading_needs() -> None:
     """What the program needs are locked with hashes; what only development needs is not installed."""
     text, origin = locked(None)

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
+
+from autograder.commands._people import people_options
 
 
 @click.command()
 @click.option(
     "--course", "course_file", type=click.Path(path_type=Path), metavar="FILE", help="Settings of the course."
 )
-@click.option("--ledger", type=click.Path(path_type=Path), metavar="CSV", help="variants.csv of the release.")
+@people_options
 @click.option(
-    "--roster",
-    type=click.Path(path_type=Path),
-    metavar="CSV",
-    help="Whose address is which student_id, where the ledger's ids are no addresses.",
-)
-@click.option(
-    "--seed", type=click.IntRange(0), metavar="S", help="Which cases are drawn. [default: the course's, or 0]"
+    "--seed",
+    type=click.IntRange(0),
+    metavar="S",
+    help="Which cases are drawn. [default: the course's, or from secret and term, or 0]",
 )
 @click.option("--examples", type=click.IntRange(1), metavar="N", help="Cases a stage. [default: the course's]")
 @click.option(
@@ -52,6 +52,9 @@ def command(
     course_file: Path | None,
     ledger: Path | None,
     roster: Path | None,
+    term: str | None,
+    secret_file: Path | None,
+    families: Sequence[str],
     seed: int | None,
     examples: int | None,
     feedback: str | None,
@@ -63,25 +66,29 @@ def command(
 
     It holds this grader, the locked versions and the rules of the course; a submission gets the same marks there as
     from `autograder grade` with the same seed. With the ledger of a release everybody is judged on the variant on
-    record; the secret of the term is not needed and never in it.
+    record; without one, roster, term and secret draw the same numbers again. The secret itself is never in it.
 
     \b
     autograder export gradescope -o autograder.zip
     autograder export gradescope --course course.toml --seed 2026 -o autograder.zip
-    autograder export gradescope --ledger release/variants.csv --roster class.csv -o autograder.zip
+    autograder export gradescope --ledger release/staff/variants.csv --roster class.csv -o autograder.zip
+    autograder export gradescope --term 2026S --secret-file secret.txt --roster class.csv -o autograder.zip
     """
+    from autograder.commands._class import secret_of
+    from autograder.commands._people import people_of
     from autograder.commands.export._shared import read, say
     from autograder.course import load_course
     from autograder.exports.gradescope.archive import MEMORY_MIB, Rules, autograder_zip
     from autograder.exports.gradescope.submitter import slim_roster
-    from autograder.problems.ledger import read_ledger
-    from autograder.problems.roster import read_roster
+    from autograder.problems.ledger import ledger_text
     from autograder.writing import write_whole
 
     course = load_course(course_file)
     choices: dict[str, Any] = {"feedback": feedback, "visibility": visibility}
+    secret = secret_of(term, secret_file)
+    drawn = secret.seed(term) if secret is not None and term is not None else 0
     rules = Rules(
-        seed=seed if seed is not None else (course.seed or 0),
+        seed=next(value for value in (seed, course.seed, drawn) if value is not None),
         examples=examples or course.examples,
         time_limit=course.time_limit,
         memory_mib=min(course.memory_mib, MEMORY_MIB),
@@ -89,16 +96,16 @@ def command(
         **choices,
     )
     notes = []
-    students = read_roster(roster) if roster is not None else []
-    if ledger is not None:
-        known = read_ledger(ledger)
-        missing = [one.student_id for one in students if one.student_id not in known]
-        if missing:
-            notes.append(f"{len(missing)} students of the roster have no variant: {', '.join(missing[:5])}.")
+    people = people_of(roster, ledger, secret, term, families, course)
+    students = people.students if people is not None and roster is not None else []
+    known = None if people is None else people.ledger
+    missing = [one.student_id for one in students if known is not None and one.student_id not in known]
+    if missing:
+        notes.append(f"{len(missing)} students of the roster have no variant: {', '.join(missing[:5])}.")
     data, origin = autograder_zip(
         rules,
         course=read(course_file, "a course file") if course_file is not None else b"",
-        ledger=read(ledger, "the variants.csv of a release") if ledger is not None else b"",
+        ledger=b"" if known is None else ledger_text(known),
         roster=slim_roster(students),
         lock=lock,
     )
