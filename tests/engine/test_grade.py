@@ -185,7 +185,13 @@ def test_ctrl_c_keeps_what_is_done(uploads, tmp_path):
     (uploads / "slow.py").write_text("def residual(x, graph):\n    while True:\n        pass\n")
     command = [sys.executable, "-m", "autograder", "grade", str(uploads), "-o", str(tmp_path / "out")]
     options = ["--examples", "10", "--time-limit", "5", "--workers", "1"]
-    process = subprocess.Popen([*command, *options], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        [*command, *options],
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509 - test runners ignore it
+    )
     deadline = time.monotonic() + 60
     while time.monotonic() < deadline and len(list((tmp_path / "out/results").glob("*.json"))) < 5:
         time.sleep(0.05)

