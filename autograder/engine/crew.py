@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from autograder.engine.local import LocalPool, default_workers
-from autograder.engine.pool import Pool
+from autograder.engine.pool import LEVELS, Pool
 from autograder.engine.run import Settings
 from autograder.engine.worker import Ready
 from autograder.errors import SandboxError
-
-LEVELS = ("none", "seccomp", "full")
 
 
 def crew(orders: bytes, settings: Settings) -> Pool:

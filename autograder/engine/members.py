@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from autograder.engine import remote
+from autograder.engine.pool import LEVELS
 from autograder.engine.store import versions
 from autograder.engine.worker import Ready, Trouble
 from autograder.errors import SandboxError, UsageError
@@ -16,7 +17,6 @@ from autograder.errors import SandboxError, UsageError
 CONNECT_SECONDS = 10.0
 PATIENCE_SECONDS = 60.0  # without any fit worker, before the run is given up
 UNFIT_SECONDS = 5.0  # as long as all that are there are unfit
-LEVELS = ("none", "seccomp", "full")
 KEPT = "Results so far are kept; the same command goes on from there."
 
 

@@ -8,6 +8,7 @@ from typing import Protocol, Self
 from autograder.engine.worker import Explained, Graded, Job, Ready, Trouble
 
 Answer = Graded | Explained | Trouble
+LEVELS = ("none", "seccomp", "full")  # of confinement, from weak to strong
 MAX_LOSSES = 2  # a submission whose worker is lost so often is given up
 GIVEN_UP = Trouble("The worker process was lost twice while this submission ran.", lost=True)
 
