@@ -11,7 +11,7 @@ from autograder.course import Course
 from autograder.engine.corpus import Corpus
 from autograder.engine.local import LocalPool, default_workers
 from autograder.engine.pool import Answer
-from autograder.engine.worker import Grade, Graded, Orders, Trouble
+from autograder.engine.worker import Grade, Orders, Trouble
 from autograder.errors import SandboxError
 from autograder.sandbox.frames import Source
 from autograder.stages.base import Stage
@@ -58,9 +58,8 @@ def examine(
     late: list[int] = []
 
     def keep(index: int, answer: Answer) -> None:
-        if not isinstance(answer, Graded):
-            words = answer.message if isinstance(answer, Trouble) else "the grader answered out of turn"
-            raise SandboxError(f"{sources[index].name} could not be judged: {words}")
+        if isinstance(answer, Trouble):
+            raise SandboxError(f"{sources[index].name} could not be judged: {answer.message}")
         if answer.ran_out and index not in late:
             late.append(index)
             return

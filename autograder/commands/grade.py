@@ -263,9 +263,7 @@ def print_results(results: Sequence[Result], out: Path, as_json: bool) -> None:
 
 
 def exit_code(run: Run) -> int:
-    """Return 130 for an interrupted run, 3 where something could not be graded or explained, else 0."""
-    from autograder.engine.store import DRAFT
-
+    """Return 130 for an interrupted run, 3 where something could not be graded, else 0."""
     if run.interrupted:
         click.echo(
             f"autograder: Interrupted: {len(run.results)} of {run.record.submissions} are graded and kept; "
@@ -278,14 +276,6 @@ def exit_code(run: Run) -> int:
         click.echo(
             f"autograder: {len(broken)} could not be graded, through no fault of the student "
             f"({', '.join(broken[:3])}{', ...' if len(broken) > 3 else ''}); see results/ and `autograder doctor`.",
-            err=True,
-        )
-        return 3
-    drafts = [result.submission for result in run.results if result.fingerprint.endswith(DRAFT)]
-    if drafts:
-        click.echo(
-            f"autograder: {len(drafts)} are graded but not explained, because their worker was lost twice "
-            f"({', '.join(drafts[:3])}{', ...' if len(drafts) > 3 else ''}); the same command goes on from there.",
             err=True,
         )
         return 3

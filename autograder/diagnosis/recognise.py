@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from autograder.problems.cases import Case
 from autograder.problems.core import GOLDEN
@@ -45,6 +46,16 @@ def same(one: Array, other: Array) -> bool:
         return False
     size = np.abs(other[finite]).max(initial=0.0)
     return bool((np.abs(one[finite] - other[finite]) <= CLOSE * (size + 1e-6)).all())
+
+
+@dataclass(frozen=True)
+class Given:
+    """Answers laid end to end: what came back for several batches, or what a slip returned."""
+
+    outcome: NDArray[np.uint8]
+    shapes: list[tuple[int, ...]]
+    offsets: NDArray[np.int64]
+    data: Array
 
 
 @dataclass

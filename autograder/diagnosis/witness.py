@@ -5,32 +5,16 @@ from __future__ import annotations
 import random
 import warnings
 from collections.abc import Callable
-from functools import cache
 
 from hypothesis import HealthCheck, Phase, Verbosity, find, settings
 from hypothesis.errors import HypothesisException, HypothesisWarning
 
 from autograder.problems.cases import Case, key
-from autograder.problems.draw import draw_distinct
 from autograder.problems.tracks import leave_no_tracks
 from autograder.problems.witnesses import WITNESSES
 
-SMALL = 60  # small cases that are tried before a search
 GENERATED = 60  # cases drawn from a strategy before it is given up
 BUDGET = 300  # calls of `is_wrong` in all: a count, so that the witness is the same on every machine
-
-
-@cache
-def small_cases(ladder: str) -> tuple[Case, ...]:
-    """Return small cases, from simple to rich, that everybody is asked: the same on every machine.
-
-    Examples
-    --------
-    >>> x, graph = small_cases("graphs")[0]
-    >>> graph.n_poses
-    2
-    """
-    return tuple(draw_distinct(WITNESSES[ladder][0], SMALL, f"witness/{ladder}"))
 
 
 def smallest_witness(ladder: str, is_wrong: Callable[[Case], bool], budget: int = BUDGET) -> Case | None:

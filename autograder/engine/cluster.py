@@ -21,7 +21,7 @@ import msgspec
 from autograder.engine import remote
 from autograder.engine.members import Member, Members, connect
 from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Answer
-from autograder.engine.worker import Explained, Graded, Job, Ready, Trouble, decode_message
+from autograder.engine.worker import Grade, Graded, Ready, Trouble, decode_message
 
 DEPTH = 2  # tasks a worker has: one that runs and one that waits, so that it is never idle
 LOOK_SECONDS = 0.5  # between looks at which workers there are
@@ -32,10 +32,10 @@ RESULT_SECONDS = 5.0  # for bytes that a worker says are there
 class _Round:
     """The jobs of one call of `run`: still to give, lost once, given."""
 
-    fresh: deque[tuple[int, Job]]
+    fresh: deque[tuple[int, Grade]]
     done: Callable[[int, Answer], None]
-    suspects: deque[tuple[int, Job]] = field(default_factory=deque)
-    given: dict[int, tuple[int, Job, Any]] = field(default_factory=dict)  # by task
+    suspects: deque[tuple[int, Grade]] = field(default_factory=deque)
+    given: dict[int, tuple[int, Grade, Any]] = field(default_factory=dict)  # by task
     losses: dict[int, int] = field(default_factory=dict)  # by job
 
     def lose(self, task: int) -> None:
@@ -95,7 +95,7 @@ class Cluster:
         """Let the workers end their fork servers, and leave the cluster as it was."""
         self._members.close()
 
-    def run(self, jobs: Iterable[tuple[int, Job]], done: Callable[[int, Answer], None]) -> None:
+    def run(self, jobs: Iterable[tuple[int, Grade]], done: Callable[[int, Answer], None]) -> None:
         """Run all jobs; what a lost worker had is run again, once."""
         now = _Round(deque(jobs), done)
         looked = 0.0
@@ -121,7 +121,7 @@ class Cluster:
             while now.fresh and not member.alone and len(member.tasks) < DEPTH:
                 self._send(now, member, *now.fresh.popleft())
 
-    def _send(self, now: _Round, member: Member, number: int, job: Job) -> None:
+    def _send(self, now: _Round, member: Member, number: int, job: Grade) -> None:
         task = next(self._tasks)
         future = self._members.submit(member.address, remote.work, self._members.run, msgspec.msgpack.encode(job))
         member.tasks.add(task)
@@ -153,4 +153,4 @@ def _answer(future: Any) -> Answer:
         message = decode_message(future.result(timeout=RESULT_SECONDS))
     except Exception as error:  # noqa: BLE001 - dask raises many kinds: KilledWorker, CancelledError, CommClosedError
         return Trouble(f"{type(error).__name__}: {error}", lost=True)
-    return message if isinstance(message, Graded | Explained | Trouble) else Trouble("The worker answered out of turn.")
+    return message if isinstance(message, Graded | Trouble) else Trouble("The worker answered out of turn.")

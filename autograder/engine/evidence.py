@@ -3,30 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from assignment.posegraph import PoseGraph, Ranging
+from autograder.diagnosis.recognise import Given
 from autograder.engine.collect import Reply
 from autograder.engine.follow import array_of
 from autograder.engine.plan import Task
+from autograder.problems.plain import plain
 from autograder.sandbox.frames import Kind, Outcome
 from autograder.sandbox.host import Outputs
 from autograder.stages.base import Array, fits
-
-
-@dataclass(frozen=True)
-class Joined:
-    """All answers of one stage."""
-
-    outcome: NDArray[np.uint8]
-    shapes: list[tuple[int, ...]]
-    offsets: NDArray[np.int64]
-    data: Array
-
 
 MAX_SHOWN_POSES = 10  # a larger counterexample is described in words only
 
@@ -48,11 +37,11 @@ _REMARKS = {
 }
 
 
-def joined(outputs: Sequence[Outputs]) -> Joined:
+def joined(outputs: Sequence[Outputs]) -> Given:
     """Lay the batches of one stage end to end."""
     sizes = np.cumsum([0, *(len(each.data) for each in outputs)])
     offsets = [each.offsets[:-1] + start for each, start in zip(outputs, sizes[:-1], strict=True)]
-    return Joined(
+    return Given(
         outcome=np.concatenate([each.outcome for each in outputs]),
         shapes=[shape for each in outputs for shape in each.shapes],
         offsets=np.concatenate([*offsets, sizes[-1:]]),
@@ -154,20 +143,9 @@ def _extent(argument: Any) -> tuple[int, ...]:
 
 
 def _json(argument: Any) -> Any:
-    if isinstance(argument, PoseGraph):
-        return {
-            "n_poses": argument.n_poses,
-            "edges": argument.edges.tolist(),
-            "measurements": argument.measurements.tolist(),
-            "edge_variances": argument.edge_variances.tolist(),
-            "priors": argument.priors.tolist(),
-            "prior_means": argument.prior_means.tolist(),
-            "prior_variances": argument.prior_variances.tolist(),
-        }
-    if isinstance(argument, Ranging):
-        names = ("beacon", "poses", "ranges", "variances")
-        return {name: getattr(argument, name).tolist() for name in names}
-    return _strict((np.asarray(argument, dtype=np.float64) + 0.0).tolist())
+    """Write an argument, or what came back, as JSON has it: nan and inf by their names."""
+    data = plain(argument)
+    return data if isinstance(data, dict) else _strict(data)
 
 
 def _strict(value: Any) -> Any:

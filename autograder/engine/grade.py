@@ -7,18 +7,15 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import msgspec
-from msgspec.structs import replace
 
 import autograder
 from autograder.course import Course
 from autograder.engine.corpus import Corpus, draw_corpus
 from autograder.engine.crew import crew, level_of
-from autograder.engine.explain import wants_explanation
-from autograder.engine.explain_all import explain_all
 from autograder.engine.pool import Answer, Pool
 from autograder.engine.run import Assigned, Progress, Run, Settings
-from autograder.engine.store import DRAFT, RunRecord, Store, code_digest, fingerprint, versions
-from autograder.engine.worker import Explained, Grade, Graded, Orders, Trouble
+from autograder.engine.store import RunRecord, Store, code_digest, fingerprint, versions
+from autograder.engine.worker import Grade, Graded, Orders, Trouble
 from autograder.intake.submission import Submission
 from autograder.intake.written import written_answers
 from autograder.problems.variants import published
@@ -100,7 +97,6 @@ class _Grading:
                 self.level = level_of(pool, self.settings)
                 self.locks = "" if pool.confinement is None else f"{self.level}: {pool.confinement.detail}"
                 self._confirm(pool, self._first_pass(pool))
-                explain_all(pool, self.submissions, self.results, self._finish_explained)
         except KeyboardInterrupt:
             interrupted = True
         record = self._record(interrupted)
@@ -157,34 +153,15 @@ class _Grading:
     def _done(self, index: int, answer: Answer) -> None:
         self._finish(self._result(self.submissions[index], answer))
 
-    def _finish_explained(self, submission: Submission, answer: Answer) -> None:
-        """Store the final result; where explaining went wrong, the verdicts stand as they were.
-
-        Where only a worker was lost, the draft stays a draft: the next run goes on from there.
-        """
-        if isinstance(answer, Trouble) and answer.lost:
-            return
-        draft = self.results[submission.id]
-        changed = {verdict.name: verdict for verdict in answer.verdicts} if isinstance(answer, Explained) else {}
-        stages = tuple(changed.get(verdict.name, verdict) for verdict in draft.stages)
-        final = replace(draft, stages=stages, fingerprint=draft.fingerprint.removesuffix(DRAFT))
-        self.store.save(final)
-        self.results[submission.id] = final
-
     def _result(self, submission: Submission, answer: Answer) -> Result:
-        if not isinstance(answer, Graded):
-            message = answer.message if isinstance(answer, Trouble) else "The grader answered out of turn."
-            return self._base(submission, status="grader_error", message=message, score=None, seconds=0.0)
+        if isinstance(answer, Trouble):
+            return self._base(submission, status="grader_error", message=answer.message, score=None, seconds=0.0)
         bonus = sum(stage.score for stage in answer.stages if stage.bonus)
         score = sum(stage.score for stage in answer.stages if not stage.bonus) + bonus
         awaiting = sum(stage.max_score for stage in answer.stages if stage.status == "awaiting_mark")
-        fingerprint = self._fingerprint(submission)
-        if any(wants_explanation(stage) for stage in answer.stages):
-            fingerprint += DRAFT
         return self._base(
             submission,
             status="graded",
-            fingerprint=fingerprint,
             score=round(min(score, max(self.course.bonus_cap, self.max_score)), 6),
             seconds=answer.seconds,
             confinement=answer.confinement or self.level,

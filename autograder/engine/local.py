@@ -17,7 +17,7 @@ import msgspec
 
 from autograder.engine import worker
 from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Answer
-from autograder.engine.worker import Job, Ready, Trouble
+from autograder.engine.worker import Grade, Ready, Trouble
 from autograder.errors import SandboxError
 
 _MAIN = threading.main_thread()  # the only one that may set signal handlers
@@ -84,7 +84,7 @@ class LocalPool:
                 each.process.join()
         self._workers.clear()
 
-    def run(self, jobs: Iterable[tuple[int, Job]], done: Callable[[int, Answer], None]) -> None:
+    def run(self, jobs: Iterable[tuple[int, Grade]], done: Callable[[int, Answer], None]) -> None:
         """Run all jobs, at most one a worker at a time; call `done` as each ends, in any order."""
         waiting = deque(jobs)
         known = dict(waiting)
@@ -163,7 +163,7 @@ class LocalPool:
                 "`autograder doctor` may say why."
             )
 
-    def _give(self, each: _Worker, number: int, job: Job) -> None:
+    def _give(self, each: _Worker, number: int, job: Grade) -> None:
         each.job = number
         with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # noticed when its connection is read
             each.connection.send_bytes(msgspec.msgpack.encode(job))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from assignment.posegraph import PoseGraph, Ranging
+from autograder.diagnosis.gallery import gallery
 from autograder.engine.corpus import Corpus
 from autograder.problems.cases import Case
 from autograder.problems.ladders import Rung
@@ -19,6 +20,7 @@ from autograder.stages.base import Stage
 
 Shared = PoseGraph | Ranging
 MAX_REPLY = 8 * 1024 * 1024  # bytes that one reply may have at the most, where checks are asked together
+_GALLERY = Rung("gallery", "small cases", 0.0, ())
 SLACK = 16  # numbers that an answer may hold beyond twice the expected ones before only its shape is reported
 
 
@@ -69,6 +71,7 @@ class Plan:
 
     tasks: tuple[Task, ...]
     bundles: tuple[Bundle, ...]
+    galleries: tuple[Task, ...]
     points: Mapping[str, float]
     follow_through: float
     corpus: Corpus
@@ -100,6 +103,10 @@ class Plan:
         """Return the checks of a stage."""
         return next(tasks for each, tasks in self.stages if each is stage)
 
+    def gallery_of(self, stage: Stage) -> Task:
+        """Return the small cases of a stage, or of the facet that one rung sees, for whoever is wrong."""
+        return next(task for task in self.galleries if task.stage is stage)
+
     def batch_of(self, stage: str, rung: str) -> int:
         """Return the number of the batch of one check; -1 where the run has no such check."""
         return next((task.batch for task in self.tasks if (task.stage.name, task.rung.name) == (stage, rung)), -1)
@@ -130,22 +137,28 @@ def make_plan(
     stages: Sequence[Stage], points: Mapping[str, float], corpus: Corpus, follow_through: float = 0.5
 ) -> Plan:
     """Lay out every call of a run."""
-    tasks: list[Task] = []
     batches: list[frames.Batch] = []
     objects: dict[Shared, int] = {}
-    for stage in stages:
-        for rung in stage.ladder.rungs:
-            cases = corpus.cases[stage.ladder.name][rung.name]
-            calls = [call for case in cases for call in stage.calls(case)]
-            for call in calls:
-                for argument in call:
-                    if isinstance(argument, PoseGraph | Ranging):
-                        objects.setdefault(argument, len(objects))
-            tasks.append(Task(stage.facet(rung.name), rung, cases, len(batches)))
-            batches.append(_batch(stage.facet(rung.name), calls, objects))
+
+    def task(stage: Stage, rung: Rung, cases: tuple[Case, ...]) -> Task:
+        calls = [call for case in cases for call in stage.calls(case)]
+        for call in calls:
+            for argument in call:
+                if isinstance(argument, PoseGraph | Ranging):
+                    objects.setdefault(argument, len(objects))
+        batches.append(_batch(stage, calls, objects))
+        return Task(stage, rung, cases, len(batches) - 1)
+
+    tasks = [
+        task(stage.facet(rung.name), rung, corpus.cases[stage.ladder.name][rung.name])
+        for stage in stages
+        for rung in stage.ladder.rungs
+    ]
     bundles = _bundles(tasks, batches)
+    facets = dict.fromkeys(each.stage for each in tasks)
+    galleries = [task(stage, _GALLERY, gallery(stage.ladder.name)) for stage in facets]
     inputs = frames.encode_inputs(frames.Inputs(objects=[shared_data(each) for each in objects], batches=batches))
-    return Plan(tuple(tasks), tuple(bundles), points, follow_through, corpus, inputs, objects)
+    return Plan(tuple(tasks), tuple(bundles), tuple(galleries), points, follow_through, corpus, inputs, objects)
 
 
 def _bundles(tasks: Sequence[Task], batches: list[frames.Batch]) -> list[Bundle]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Protocol, Self
 
-from autograder.engine.worker import Explained, Graded, Job, Ready, Trouble
+from autograder.engine.worker import Grade, Graded, Ready, Trouble
 
-Answer = Graded | Explained | Trouble
+Answer = Graded | Trouble
 LEVELS = ("none", "seccomp", "full")  # of confinement, from weak to strong
 MAX_LOSSES = 2  # a submission whose worker is lost so often is given up
 GIVEN_UP = Trouble("The worker process was lost twice while this submission ran.", lost=True)
@@ -30,7 +30,7 @@ class Pool(Protocol):
     def __exit__(self, *_: object) -> None:
         """Close."""
 
-    def run(self, jobs: Iterable[tuple[int, Job]], done: Callable[[int, Answer], None]) -> None:
+    def run(self, jobs: Iterable[tuple[int, Grade]], done: Callable[[int, Answer], None]) -> None:
         """Run all jobs; call `done` as each ends, in any order; what a lost worker had is run again."""
 
     def close(self) -> None:

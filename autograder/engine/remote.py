@@ -14,7 +14,7 @@ import msgspec
 
 from autograder.engine.plan import Plan
 from autograder.engine.store import versions
-from autograder.engine.worker import Examiner, Job, Orders, Ready, Trouble
+from autograder.engine.worker import Examiner, Grade, Orders, Ready, Trouble
 from autograder.errors import AutograderError, SandboxLost
 from autograder.sandbox.host import Sandbox
 
@@ -76,7 +76,7 @@ def work(run: str, job: bytes) -> bytes:
         if held is None:
             return msgspec.msgpack.encode(Trouble("This worker knows nothing of the run.", lost=True))
         try:
-            return msgspec.msgpack.encode(held.examiner.do(msgspec.msgpack.decode(job, type=Job)))
+            return msgspec.msgpack.encode(held.examiner.do(msgspec.msgpack.decode(job, type=Grade)))
         except SandboxLost as error:
             _drop(run)
             return msgspec.msgpack.encode(Trouble(str(error), lost=True))

@@ -21,7 +21,6 @@ from autograder.writing import sweep, write_whole
 # Rooms that are left out of the digest of the code: specimens are data, and the others come after the verdicts.
 SHOWING = {"specimens", "reports", "exports", "marking", "desk", "commands", "audit", "cli.py", "__main__.py", "render"}
 _EFFECTIVE = os.access in os.supports_effective_ids
-DRAFT = "-draft"  # ends the fingerprint of a result that is judged, and not yet explained
 
 
 class RunRecord(msgspec.Struct, frozen=True, kw_only=True):
@@ -70,14 +69,11 @@ class Store:
         sweep(self.results)
 
     def load(self, submission: str, fingerprint: str) -> Result | None:
-        """Return the stored result if it is whole, from the same work, and not a fault of ours.
-
-        A draft counts: it is judged, and only its explanation is missing.
-        """
+        """Return the stored result if it is whole, from the same work, and not a fault of ours."""
         result = self.read(submission)
         if result is None or result.status == "grader_error":
             return None
-        return result if result.fingerprint in {fingerprint, fingerprint + DRAFT} else None
+        return result if result.fingerprint == fingerprint else None
 
     def read(self, submission: str) -> Result | None:
         """Return the stored result whatever work it is from; None where there is none that can be read."""
@@ -103,6 +99,7 @@ def code_digest() -> str:
     digest = hashlib.sha256()
     files = [root / "assignment/posegraph.py", root / "reference_solution/slam1d.py"]
     files += sorted(path for path in (root / "autograder").rglob("*.py") if _judges(path.relative_to(root)))
+    files.append(root / "autograder/diagnosis/gallery.json")
     for path in files:
         digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()

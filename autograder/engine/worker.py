@@ -15,8 +15,8 @@ import msgspec
 
 from autograder.engine.answering import judge_answers, judge_written
 from autograder.engine.collect import collect
-from autograder.engine.corpus import case_of, load_corpus, plain_case
-from autograder.engine.explain import Explainer, Explanation
+from autograder.engine.corpus import case_of, load_corpus
+from autograder.engine.explain import explain
 from autograder.engine.follow import STAGE
 from autograder.engine.judge import Judge
 from autograder.engine.plan import Plan, make_plan
@@ -55,7 +55,7 @@ class Orders(msgspec.Struct, frozen=True):
         )
 
 
-class Grade(msgspec.Struct, frozen=True, tag=True):
+class Grade(msgspec.Struct, frozen=True):
     """Ask to run and judge one submission.
 
     `sheet` is the variant on record: its identifier, and its graph and iterates as a plain case;
@@ -65,21 +65,6 @@ class Grade(msgspec.Struct, frozen=True, tag=True):
     source: Source
     sheet: tuple[str, list[Any]] | None = None
     markdown_answers: dict[str, str] = {}
-
-
-class Explain(msgspec.Struct, frozen=True, tag=True):
-    """Ask to explain wrong stages of one submission; `given` holds what its group knows already, or None."""
-
-    source: Source
-    verdicts: tuple[StageVerdict, ...]
-    given: tuple[Known | None, ...]
-
-
-class Known(msgspec.Struct, frozen=True):
-    """An explanation that can travel."""
-
-    facts: tuple[str, ...]
-    witness: list[Any] | None
 
 
 class Ready(msgspec.Struct, frozen=True, tag=True):
@@ -101,13 +86,6 @@ class Graded(msgspec.Struct, frozen=True, tag=True):
     confinement: str = ""
 
 
-class Explained(msgspec.Struct, frozen=True, tag=True):
-    """The verdicts with their explanations, and these apart for the rest of the group."""
-
-    verdicts: tuple[StageVerdict, ...]
-    known: tuple[Known, ...]
-
-
 class Trouble(msgspec.Struct, frozen=True, tag=True):
     """The grader's own fault, in words; `lost` where nothing is known but that a worker has gone."""
 
@@ -116,8 +94,7 @@ class Trouble(msgspec.Struct, frozen=True, tag=True):
     lost: bool = False
 
 
-Job = Grade | Explain
-Message = Ready | Graded | Explained | Trouble
+Message = Ready | Graded | Trouble
 _decoder: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)
 
 
@@ -149,7 +126,7 @@ def main(connection: Connection) -> None:
             send(Ready(sandbox.confinement.level, sandbox.confinement.detail))
             examiner = Examiner(plan, sandbox)
             while True:
-                send(examiner.do(msgspec.msgpack.decode(connection.recv_bytes(), type=Job)))
+                send(examiner.do(msgspec.msgpack.decode(connection.recv_bytes(), type=Grade)))
 
 
 def _end_with_parent() -> None:
@@ -161,7 +138,7 @@ def _end_with_parent() -> None:
 
 
 class Examiner:
-    """Does the jobs of one worker.
+    """Grades one submission after another.
 
     Parameters
     ----------
@@ -175,10 +152,9 @@ class Examiner:
         self.sandbox = sandbox
         self.plan = plan
         self.judge = Judge(plan)
-        self.explainer = Explainer(plan)
 
-    def do(self, job: Job) -> Message:
-        """Do one job; whatever goes wrong here is the grader's fault, never a zero.
+    def do(self, job: Grade) -> Message:
+        """Grade one submission; whatever goes wrong here is the grader's fault, never a zero.
 
         Raises
         ------
@@ -186,7 +162,7 @@ class Examiner:
             Where the fork server has gone: this worker is of no use any more.
         """
         try:
-            return self._grade(job) if isinstance(job, Grade) else self._explain(job)
+            return self._grade(job)
         except SandboxLost:
             raise
         except Exception as error:
@@ -204,6 +180,7 @@ class Examiner:
             if answers.NAME in self.plan.points:
                 step_is_right = any(verdict.name == STAGE and verdict.status == "passed" for verdict in stages)
                 stages.append(judge_answers(self.plan, sheet, given, session, step_is_right))
+            stages = explain(session, self.plan, stages, collected.replies)
         texts = _texts(given, job.markdown_answers)
         if written.NAME in self.plan.points:
             stages.append(judge_written(self.plan.points[written.NAME], texts))
@@ -216,25 +193,6 @@ class Examiner:
             iterates=None if given.iterates is None or given.iterates.ndim != 2 else given.iterates.tolist(),
             confinement=self.sandbox.confinement.level,
         )
-
-    def _explain(self, job: Explain) -> Explained:
-        verdicts, known = [], []
-        with self.sandbox.open(job.source) as session:
-            session.load()
-            for verdict, given in zip(job.verdicts, job.given, strict=True):
-                shared = None if given is None else _explanation(given)
-                changed, explanation = self.explainer.explain(session, verdict, shared)
-                verdicts.append(changed)
-                known.append(_known(explanation))
-        return Explained(tuple(verdicts), tuple(known))
-
-
-def _explanation(known: Known) -> Explanation:
-    return Explanation(known.facts, None if known.witness is None else case_of(known.witness))
-
-
-def _known(explanation: Explanation) -> Known:
-    return Known(explanation.facts, None if explanation.witness is None else plain_case(explanation.witness))
 
 
 def _sheet(job: Grade) -> Sheet:

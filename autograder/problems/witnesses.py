@@ -64,10 +64,30 @@ def small_loops(draw: DrawFn, kind: Numbers = _WHOLE) -> Case:
     return states, graph_of(n, edges, [(0, 0.0, 1.0)])
 
 
+@st.composite
+def small_inner_loops(draw: DrawFn, kind: Numbers = _WHOLE) -> Case:
+    """Draw a loop of two or three poses inside a walk of four or five, the prior anywhere, and two states."""
+    n = draw(st.integers(4, 5))
+    first = draw(st.integers(0, n - 2))
+    last = draw(st.integers(first + 1, min(n - 1, first + 2)))
+    edges = [draw(_edges(st.just(pair), kind)) for pair in [*chain(n), (first, last)]]
+    states = np.array([numbers(draw, kind[0], n), numbers(draw, kind[0], n)])
+    assume(np.abs(states[0] - states[1]).max() >= 1.0)
+    return states, graph_of(n, edges, [(draw(st.integers(0, n - 1)), 0.0, 1.0)])
+
+
 # Tried in this order; the first that holds a wrong case is searched for the smallest one.
 WITNESSES: dict[str, tuple[SearchStrategy[Case], ...]] = {
     "graphs": (small_graphs(), small_graphs(2, 2, _FINE), small_graphs(4, 6)),
     "matrices": (small_matrices(), small_matrices((1, 1), _FINE), small_matrices((3, 5))),
-    "loops": (small_loops(), small_loops(_FINE)),
+    "loops": (small_loops(), small_loops(_FINE), small_inner_loops()),
     "rangings": (rangings(exact=True), rangings()),
+}
+
+# How many cases the gallery draws from each, for mistakes that no catalogue knows.
+DRAWN: dict[str, tuple[tuple[SearchStrategy[Case], int], ...]] = {
+    "graphs": ((small_graphs(), 60), (small_graphs(4, 6), 30)),
+    "matrices": ((small_matrices(), 60), (small_matrices((3, 5)), 10)),
+    "loops": ((small_loops(), 40), (small_inner_loops(), 20)),
+    "rangings": ((rangings(exact=True), 40),),
 }

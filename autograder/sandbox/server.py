@@ -20,7 +20,7 @@ import numpy as np
 
 from autograder.errors import SandboxError, SandboxLost
 from autograder.sandbox import forkserver, frames
-from autograder.sandbox.channel import Budget, Channel
+from autograder.sandbox.channel import WALL_FACTOR, Budget, Channel
 
 _FOLDER = Path(__file__).resolve().parent
 _POSEGRAPH = _FOLDER.parent.parent / "assignment" / "posegraph.py"
@@ -50,6 +50,10 @@ class Limits:
     def total_cpu(self) -> float:
         """Computing time of a submission as a whole [s]."""
         return 4 * self.cpu_seconds
+
+    def budget(self) -> Budget:
+        """Return what a submission may use as a whole."""
+        return Budget(self.total_cpu, WALL_FACTOR * self.total_cpu)
 
 
 @dataclass(frozen=True)

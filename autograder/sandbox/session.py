@@ -41,7 +41,7 @@ class Session:
         self._limits = limits
         self._expected = expected
         self._source = frames.Source(source.kind, [_sendable(cell) for cell in source.cells], _sendable(source.name))
-        self._budget = Budget(self._limits.total_cpu, WALL_FACTOR * self._limits.total_cpu)
+        self._budget = self._limits.budget()
         self._channel: Channel | None = None
         self._pid = 0
         self._loaded: Loaded | None = None
@@ -77,6 +77,11 @@ class Session:
     def fresh(self) -> None:
         """Throw the child away: the next call happens in one that has seen no call before."""
         self._discard()
+
+    def afresh(self) -> None:
+        """Begin again, in a fresh child and with all the time that a submission has."""
+        self._discard()
+        self._budget = self._limits.budget()
 
     def close(self) -> None:
         """End the child."""

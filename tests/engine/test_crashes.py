@@ -115,8 +115,8 @@ def test_kills_cost_nothing_but_time(course: Path, calm: tuple[dict[str, bytes],
     assert sorted(found) == sorted(wanted)
 
 
-def test_the_class_covers_the_last_pass(calm: tuple[dict[str, bytes], float]) -> None:
-    """Mistakes of unknown kind are among the submissions, two of them in one group: the leader explains for both."""
+def test_the_class_covers_explanations(calm: tuple[dict[str, bytes], float]) -> None:
+    """Mistakes of unknown kind are among the submissions, two of them in one group."""
     results = {name: calm[0][f"results/{name}.json"].decode() for name in CLASS}
     assert '"slip": null' in results["cleo"]
     assert '"counterexample": {' in results["cleo"]

@@ -1,11 +1,12 @@
-"""Mistakes that no catalogue knows: what is said of them is true, and the case that shows them is small."""
+"""Mistakes, known and unknown: what is said of them is true, and the case that shows them is small."""
 
 import pytest
 
+from autograder.diagnosis.gallery import gallery
 from autograder.engine.collect import collect
-from autograder.engine.explain import Explainer, Explanation, wants_explanation
+from autograder.engine.explain import explain, wants_explanation
 from autograder.engine.judge import Judge
-from autograder.problems.cases import key
+from autograder.problems.plain import plain
 from autograder.sandbox.frames import Source
 from autograder.sandbox.host import Limits, Sandbox
 from autograder.stages.catalogue import slips
@@ -14,20 +15,20 @@ from tests.engine.conftest import REFERENCE
 
 
 @pytest.fixture(scope="module")
-def explain(plan):
-    """A function that grades a text and explains one stage of it."""
-    judge, explainer = Judge(plan), Explainer(plan)
+def explained(plan):
+    """A function that grades a text and returns one stage, explained, and the case that shows it."""
+    judge = Judge(plan)
     with Sandbox(plan.inputs, Limits(cpu_seconds=1.0)) as sandbox:
 
         def run(text, name):
             source = Source(kind="module", cells=[text], name="submission.py")
             with sandbox.open(source) as session:
-                verdicts = {verdict.name: verdict for verdict in judge.judge(collect(session, plan))}
-            assert wants_explanation(verdicts[name])
-            with sandbox.open(source) as session:
-                session.load()
-                verdict, known = explainer.explain(session, verdicts[name], None)
-            return verdict, known
+                collected = collect(session, plan)
+                judged = judge.judge(collected)
+                assert any(wants_explanation(verdict) for verdict in judged if verdict.name == name)
+                verdicts = {each.name: each for each in explain(session, plan, judged, collected.replies)}
+            shown = next(check for check in verdicts[name].checks if not check.passed).counterexample
+            return verdicts[name], shown
 
         yield run
 
@@ -97,55 +98,71 @@ MISTAKES = {
 }
 
 
+def in_gallery(ladder, shown):
+    """Whether a counterexample is one of the small cases."""
+    names = ("J", "omega", "f") if ladder == "matrices" else ("x", "graph")
+    case = [shown[name] for name in names]
+    return case in [[plain(each) for each in known] for known in gallery(ladder)]
+
+
 @pytest.mark.parametrize("name", MISTAKES)
-def test_an_unknown_mistake_is_described(explain, name):
+def test_an_unknown_mistake_is_described(explained, name):
     """The sentence says what is true of it, in the subject's words, and a small witness stands beside it."""
     stage, text, words = MISTAKES[name]
-    verdict, known = explain(text, stage)
+    verdict, shown = explained(text, stage)
     assert verdict.slip is None
     assert words in verdict.message
-    assert known.witness is not None
-    size = known.witness[1].n_poses if stage != "normal_equations" else known.witness[0].shape[1]
+    size = shown["graph"]["n_poses"] if "graph" in shown else len(shown["J"][0])
     assert size <= (3 if name != "five poses" else 4)
 
 
-def test_the_witness_is_put_into_the_first_failed_check(explain):
+def test_the_witness_is_put_into_the_first_failed_check(explained):
     """Its arguments, what came and what was expected are there as plain data; numbers are whole."""
-    verdict, _ = explain(wrapped("jacobian", "return 1.25 * value"), "jacobian")
-    shown = next(check for check in verdict.checks if not check.passed).counterexample
+    verdict, shown = explained(wrapped("jacobian", "return 1.25 * value"), "jacobian")
     assert shown["graph"]["n_poses"] == 2
     assert all(float(value).is_integer() for value in shown["graph"]["measurements"])
-    assert shown["expected"] == [[1.0, -1.0], [1.0, 0.0]]
-    assert shown["got"] == [[1.25, -1.25], [1.25, 0.0]]
+    assert shown["expected"] == [[-1.0, 1.0], [1.0, 0.0]] or shown["expected"] == [[1.0, -1.0], [1.0, 0.0]]
+    assert shown["got"] == [[1.25 * value for value in row] for row in shown["expected"]]
+    assert verdict.message.endswith(next(check for check in verdict.checks if not check.passed).message)
 
 
 @pytest.mark.parametrize(
     "slip", [slip for slip in slips("residual") if slip.catalogue][:6], ids=lambda slip: slip.identifier
 )
-def test_a_known_mistake_is_shown_on_a_small_graph(explain, slip):
+def test_a_known_mistake_is_shown_on_a_small_graph(explained, slip):
     """The witness of a slip has at most three poses, or as many as the slip needs."""
-    verdict, known = explain(submission_text(slip, "residual"), "residual")
+    verdict, shown = explained(submission_text(slip, "residual"), "residual")
     assert verdict.slip == slip.identifier
     assert verdict.message.startswith(slip.name)
-    assert known.witness[1].n_poses <= max(3, slip.minimum_poses)
+    assert shown["graph"]["n_poses"] <= max(3, slip.minimum_poses)
 
 
-def test_nobody_is_shown_what_another_member_of_the_group_says(explain, plan):
-    """With or without a witness from its group, a submission gets the facts and the case that are its own."""
-    judge, explainer = Judge(plan), Explainer(plan)
-    text = wrapped("residual", "return value + (graph.n_poses > 2) * 0.5")
-    source = Source(kind="module", cells=[text], name="submission.py")
-    _, other = explain(wrapped("residual", "return 1.25 * value"), "residual")
-    with Sandbox(plan.inputs, Limits(cpu_seconds=1.0)) as sandbox, sandbox.open(source) as session:
-        verdict = judge.judge(collect(session, plan))[0]
-        alone, own = explainer.explain(session, verdict, None)
-        told, still = explainer.explain(session, verdict, Explanation(("A lie.",), other.witness))
-    assert own.witness[1].n_poses == 3
-    assert told == alone
-    assert key(still.witness) == key(own.witness)
+def test_the_simplest_wrong_case_is_shown(explained):
+    """Of all small cases that a submission gets wrong, the first."""
+    _, shown = explained(wrapped("residual", "return value + (graph.n_poses > 2) * 0.5"), "residual")
+    larger = [[plain(each) for each in case] for case in gallery("graphs") if case[1].n_poses > 2]
+    assert [shown["x"], shown["graph"]] == larger[0]
 
 
-def test_a_mistake_that_no_small_case_shows_is_searched_for(explain):
-    """Wrong from four poses on: the search finds a graph of four."""
-    _, known = explain(wrapped("residual", "return value + (graph.n_poses > 3) * 0.5"), "residual")
-    assert known.witness[1].n_poses == 4
+def test_a_mistake_from_four_poses_on_is_shown_on_four(explained):
+    """The gallery goes beyond three poses."""
+    _, shown = explained(wrapped("residual", "return value + (graph.n_poses > 3) * 0.5"), "residual")
+    assert shown["graph"]["n_poses"] == 4
+    assert in_gallery("graphs", shown)
+
+
+def test_where_the_whole_gallery_is_right_the_case_of_the_exam_stands(explained):
+    """Wrong only where x has tenths: the gallery has whole numbers and sixty-fourths."""
+    _, shown = explained(wrapped("residual", "return value + 0.5 * ((64 * x) % 1 > 1e-6).any()"), "residual")
+    assert shown is not None
+    assert not in_gallery("graphs", shown)
+
+
+def test_what_remembers_the_exam_is_asked_in_a_fresh_child(explained):
+    """Wrong only once a hundred poses were seen: the gallery knows none, so the case of the exam stands."""
+    text = REFERENCE + (
+        "\n\n_f, _J, _seen = residual, jacobian, set()\n\ndef residual(x, graph):\n    _seen.add(graph.n_poses)\n"
+        "    return _f(x, graph)\n\ndef jacobian(x, graph):\n    return _J(x, graph) * (2 if 100 in _seen else 1)\n"
+    )
+    _, shown = explained(text, "jacobian")
+    assert not in_gallery("graphs", shown)

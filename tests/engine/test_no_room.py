@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from autograder.engine.store import DRAFT, Store
+from autograder.engine.store import Store
 from autograder.errors import UsageError
 from autograder.verdicts import decode
 from autograder.writing import write_whole
@@ -60,12 +60,9 @@ def refused(words: list[str]) -> str:
 
 
 def whole(out: Path, calm: Path) -> bool:
-    """Whether every result of a run is whole: one of the undisturbed run, or judged and not yet explained."""
+    """Whether every result of a run is one of the undisturbed run."""
     wanted, found = agreed(calm), agreed(out)
-    drafts = [
-        path.name for path in (out / "results").iterdir() if decode(path.read_bytes()).fingerprint.endswith(DRAFT)
-    ]
-    return all(wanted[name] == found[name] for name in found if name[:8] == "results/" and name[8:] not in drafts)
+    return all(wanted[name] == found[name] for name in found if name.startswith("results/"))
 
 
 @needs_root
