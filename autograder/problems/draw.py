@@ -5,9 +5,11 @@ from __future__ import annotations
 import hashlib
 import warnings
 from collections.abc import Iterable
+from functools import cache
 
 import numpy as np
 from hypothesis import HealthCheck, Phase, given, seed, settings
+from hypothesis import strategies as st
 from hypothesis.errors import HypothesisWarning
 from hypothesis.strategies import SearchStrategy
 
@@ -17,6 +19,7 @@ from autograder.problems.strategies import STRATEGIES
 from autograder.problems.tracks import leave_no_tracks
 
 MAX_ROUNDS = 20
+WIDTH = 8  # cases drawn as one example: most of the time of an example does not depend on its size
 
 
 def draw_ladder(ladder: Ladder, root_seed: int, examples: int) -> dict[str, tuple[Case, ...]]:
@@ -63,7 +66,7 @@ def draw_distinct(strategy: SearchStrategy[Case], count: int, name: str, known: 
         if missing <= 0:
             break
         number = int.from_bytes(hashlib.sha256(f"{name}/{attempt}".encode()).digest()[:8], "big")
-        for case in _generate(strategy, missing + missing // 8 + 2, number):
+        for case in _generate(strategy, missing + missing // 8, number):
             identity = key(case)
             if identity not in refused and len(found) < count:
                 found.setdefault(identity, case)
@@ -73,24 +76,30 @@ def draw_distinct(strategy: SearchStrategy[Case], count: int, name: str, known: 
 
 
 def _generate(strategy: SearchStrategy[Case], count: int, number: int) -> list[Case]:
+    """Draw at least so many cases, not all of them distinct."""
     drawn: list[Case] = []
 
     @seed(number)
     @settings(
-        max_examples=count,
+        max_examples=count // WIDTH + 3,  # the first is the simplest there is, eight times
         database=None,
         deadline=None,
         phases=[Phase.generate],
         suppress_health_check=list(HealthCheck),
     )
-    @given(strategy)
-    def collect(case: Case) -> None:
-        drawn.append(case)
+    @given(_rows_of(strategy))
+    def collect(cases: tuple[Case, ...]) -> None:
+        drawn.extend(cases)
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", HypothesisWarning)
         collect()
     return drawn
+
+
+@cache
+def _rows_of(strategy: SearchStrategy[Case]) -> SearchStrategy[tuple[Case, ...]]:
+    return st.tuples(*[strategy] * WIDTH)
 
 
 def _apportion(shares: list[float], total: int) -> list[int]:

@@ -29,17 +29,7 @@ WEIGHT_DECADES = (0.03, 0.7, 3.0, 70.0, 300.0)
 integers = cache(st.integers)
 sampled_from = cache(st.sampled_from)
 
-tenths = st.integers(-99, 99).map(lambda k: k / 10)
-displacements = st.integers(-30, 30).map(lambda k: k / 10)
-steps = st.integers(-9, 9).filter(bool).map(float)
-
-
 _booleans = st.booleans()
-
-
-@cache
-def _states(n_poses: int) -> SearchStrategy[np.ndarray]:
-    return st.lists(tenths, min_size=n_poses, max_size=n_poses).map(np.array)
 
 
 @cache
@@ -68,16 +58,33 @@ def _measured(
 ) -> PoseGraph:
     k, p = len(pairs), len(priors)
     first_is_origin = priors == [0]
-    measurements = numbers(draw, displacements, k)
+    measurements = _displacements(draw, k)
     edge_variances = numbers(draw, sampled_from(variances), k)
-    means = np.zeros(1) if first_is_origin else numbers(draw, displacements, p)
+    means = np.zeros(1) if first_is_origin else _displacements(draw, p)
     prior_variances = numbers(draw, sampled_from((0.001, *variances)), p)
     return PoseGraph(n_poses, np.array(pairs), measurements, edge_variances, np.array(priors), means, prior_variances)
 
 
-def numbers(draw: DrawFn, elements: SearchStrategy[float], count: int) -> np.ndarray:
+def numbers(draw: DrawFn, elements: SearchStrategy[Any], count: int) -> np.ndarray:
     """Draw an array of exactly so many numbers."""
-    return np.array(draw(several(elements, count)))
+    return np.array(draw(several(elements, count)), dtype=np.float64)
+
+
+# Whole numbers are drawn and turned into others as arrays: a strategy that maps each costs twice as much.
+def _states(draw: DrawFn, n_poses: int) -> np.ndarray:
+    """Draw a state in tenths of a metre, up to 9.9 m."""
+    return numbers(draw, integers(-99, 99), n_poses) / 10
+
+
+def _displacements(draw: DrawFn, count: int) -> np.ndarray:
+    """Draw measurements in tenths of a metre, up to 3 m."""
+    return numbers(draw, integers(-30, 30), count) / 10
+
+
+def _nonzero(draw: DrawFn, count: int) -> np.ndarray:
+    """Draw whole numbers from -9 to 9 without 0."""
+    drawn = numbers(draw, integers(-9, 8), count)
+    return drawn + (drawn >= 0)
 
 
 @st.composite
@@ -85,7 +92,7 @@ def single_loops(draw: DrawFn) -> Case:
     """Draw a walk of 2 to 6 poses with one loop closure from the first to the last."""
     n = draw(integers(2, 6))
     graph = _measured(draw, n, [*chain(n), (0, n - 1)], VARIANCES, [0])
-    return draw(_states(n)), graph
+    return _states(draw, n), graph
 
 
 def _tangled(draw: DrawFn, low: int, high: int) -> tuple[int, list[tuple[int, int]]]:
@@ -100,7 +107,7 @@ def _tangled(draw: DrawFn, low: int, high: int) -> tuple[int, list[tuple[int, in
 def several_loops(draw: DrawFn) -> Case:
     """Draw a walk with one to three more edges anywhere, some backward, in any order."""
     n, pairs = _tangled(draw, 3, 6)
-    return draw(_states(n)), _measured(draw, n, pairs, VARIANCES, [0])
+    return _states(draw, n), _measured(draw, n, pairs, VARIANCES, [0])
 
 
 def _prior_poses(draw: DrawFn, n_poses: int) -> list[int]:
@@ -111,7 +118,7 @@ def _prior_poses(draw: DrawFn, n_poses: int) -> list[int]:
 def priors(draw: DrawFn) -> Case:
     """Draw a graph whose one or two priors stand on any pose, with any mean."""
     n, pairs = _tangled(draw, 2, 5)
-    return draw(_states(n)), _measured(draw, n, pairs, VARIANCES, _prior_poses(draw, n))
+    return _states(draw, n), _measured(draw, n, pairs, VARIANCES, _prior_poses(draw, n))
 
 
 @st.composite
@@ -120,7 +127,7 @@ def variances(draw: DrawFn) -> Case:
     n, pairs = _tangled(draw, 2, 5)
     graph = _measured(draw, n, pairs, DECADES, _prior_poses(draw, n))
     assume(np.linalg.cond(information(graph)) <= MAX_CONDITION)
-    return draw(_states(n)), graph
+    return _states(draw, n), graph
 
 
 @st.composite
@@ -139,7 +146,7 @@ def real_valued(draw: DrawFn) -> Case:
         plain.prior_means + jitter(p, salt + 0.3),
         plain.prior_variances * (1.2 + jitter(p, salt + 0.3)),
     )
-    return 9.0 * draw(_states(n)) + jitter(n, salt + 0.6), graph
+    return 9.0 * _states(draw, n) + jitter(n, salt + 0.6), graph
 
 
 def system(J: np.ndarray, weights: np.ndarray, f: np.ndarray) -> Case:
@@ -148,23 +155,25 @@ def system(J: np.ndarray, weights: np.ndarray, f: np.ndarray) -> Case:
 
 
 def _whole(draw: DrawFn, shape: tuple[int, int]) -> np.ndarray:
-    return np.array(draw(several(integers(-9, 9), shape[0] * shape[1])), dtype=np.float64).reshape(shape)
+    """Draw a matrix of whole numbers whose first is not 0: one of zeros alone could be a residual, too."""
+    first = _nonzero(draw, 1)
+    return np.append(first, numbers(draw, integers(-9, 9), shape[0] * shape[1] - 1)).reshape(shape)
 
 
 @st.composite
 def whole_numbers(draw: DrawFn) -> Case:
     """Draw small J, Omega and f of whole numbers."""
     m, n = draw(integers(2, 4)), draw(integers(2, 3))
-    weights = draw(several(sampled_from(WEIGHTS), m))
-    return system(_whole(draw, (m, n)), np.array(weights), np.array(draw(several(steps, m))))
+    weights = numbers(draw, sampled_from(WEIGHTS), m)
+    return system(_whole(draw, (m, n)), weights, _nonzero(draw, m))
 
 
 @st.composite
 def unequal_weights(draw: DrawFn) -> Case:
     """Draw whole numbers with weights over four decades."""
     m, n = draw(integers(2, 5)), draw(integers(2, 4))
-    weights = draw(several(sampled_from(WEIGHT_DECADES), m))
-    return system(_whole(draw, (m, n)), np.array(weights), np.array(draw(several(steps, m))))
+    weights = numbers(draw, sampled_from(WEIGHT_DECADES), m)
+    return system(_whole(draw, (m, n)), weights, _nonzero(draw, m))
 
 
 @st.composite
@@ -177,8 +186,8 @@ def graph_shaped(draw: DrawFn) -> Case:
         i, j = _pair(draw, n)
         J[row, i], J[row, j] = 1.0, -1.0
     J[m - 1, draw(integers(0, n - 1))] = 1.0
-    weights = draw(several(sampled_from(WEIGHTS), m))
-    return system(J, np.array(weights), np.array(draw(several(tenths, m))) + 0.01)
+    weights = numbers(draw, sampled_from(WEIGHTS), m)
+    return system(J, weights, numbers(draw, integers(-99, 99), m) / 10 + 0.01)
 
 
 @st.composite
@@ -187,8 +196,8 @@ def dense(draw: DrawFn) -> Case:
     m, n = draw(integers(3, 7)), draw(integers(2, 5))
     salt = draw(integers(0, 99)) / 99
     J = _whole(draw, (m, n)) + jitter(m * n, salt).reshape(m, n)
-    weights = np.array(draw(several(sampled_from(WEIGHTS), m))) * (1.2 + jitter(m, salt))
-    return system(J, weights, np.array(draw(several(tenths, m))) + jitter(m, salt + 0.4))
+    weights = numbers(draw, sampled_from(WEIGHTS), m) * (1.2 + jitter(m, salt))
+    return system(J, weights, numbers(draw, integers(-99, 99), m) / 10 + jitter(m, salt + 0.4))
 
 
 @st.composite
@@ -214,7 +223,7 @@ def loops_in_graphs(draw: DrawFn) -> Case:
 
 
 def _two_states(draw: DrawFn, n_poses: int) -> np.ndarray:
-    first, second = draw(_states(n_poses)), draw(_states(n_poses))
+    first, second = _states(draw, n_poses), _states(draw, n_poses)
     assume(np.abs(first - second).max() >= 1.0)
     return np.array([first, second])
 
@@ -224,12 +233,12 @@ def rangings(draw: DrawFn, exact: bool = False) -> Case:
     """Draw a state and ranges to a beacon anywhere but on the line; whole numbers where `exact`."""
     n = draw(integers(2, 3 if exact else 6))
     q = draw(integers(1, 2 if exact else 4))
-    beacon = np.array([float(draw(integers(-9, 9))), float(draw(steps))])
+    beacon = np.array([float(draw(integers(-9, 9))), _nonzero(draw, 1)[0]])
     poses = np.array(draw(several(integers(0, n - 1), q)))
-    ranges = np.array(draw(several(integers(0, 99), q))) / (1.0 if exact else 10.0)
+    ranges = numbers(draw, integers(0, 99), q) / (1.0 if exact else 10.0)
     salt = 0.0 if exact else draw(integers(0, 99)) / 99
     shift = np.zeros(n) if exact else jitter(n, salt)
-    x = np.array(draw(several(integers(-9, 9), n)), dtype=np.float64) + shift
+    x = numbers(draw, integers(-9, 9), n) + shift
     return x, Ranging(beacon, poses, ranges, np.full(q, 0.01))
 
 
