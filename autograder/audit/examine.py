@@ -66,7 +66,7 @@ def examine(
         found[index] = answer.stages
         on_done(len(found), len(sources), sources[index].name)
 
-    with LocalPool(msgspec.msgpack.encode(orders), workers or default_workers()) as pool:
+    with LocalPool(lambda: msgspec.msgpack.encode(orders), workers or default_workers()) as pool:
         assert pool.confinement is not None  # entering the pool waits for it
         level = pool.confinement.level
         pool.run([(index, Grade(source)) for index, source in enumerate(sources)], keep)

@@ -55,8 +55,8 @@ class Cluster:
 
     Parameters
     ----------
-    orders : bytes
-        What every worker is told once.
+    orders : callable
+        Gives what every worker is told once; asked when the pool is entered.
     address : str
         Where the scheduler listens, as `tcp://host:8786` or `tls://host:8786`.
     least : str
@@ -68,7 +68,7 @@ class Cluster:
         The weakest level among the workers that were there first.
     """
 
-    orders: bytes
+    orders: Callable[[], bytes]
     address: str
     least: str
     confinement: Ready | None = None
@@ -77,7 +77,7 @@ class Cluster:
 
     def __enter__(self) -> Cluster:
         """Connect, and wait for the answers of all workers that are there."""
-        self._members = Members(connect(self.address), self.address, self.orders, self.least)
+        self._members = Members(connect(self.address), self.address, self.orders(), self.least)
         try:
             while self.confinement is None:
                 self._members.look()

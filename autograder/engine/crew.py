@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from autograder.engine.local import LocalPool, default_workers
 from autograder.engine.pool import LEVELS, Pool
 from autograder.engine.run import Settings
@@ -9,10 +11,13 @@ from autograder.engine.worker import Ready
 from autograder.errors import SandboxError
 
 
-def crew(orders: bytes, settings: Settings) -> Pool:
-    """Choose the workers of a run; they start when the pool is entered."""
+def crew(orders: Callable[[], bytes], settings: Settings, most: int) -> Pool:
+    """Choose the workers of a run, at most so many; they start when the pool is entered.
+
+    The orders are asked for once, while the workers start.
+    """
     if settings.scheduler is None:
-        return LocalPool(orders, settings.workers or default_workers())
+        return LocalPool(orders, max(1, min(settings.workers or default_workers(), most)))
     from autograder.engine.cluster import Cluster  # noqa: PLC0415 - an extra that not everybody installs
 
     return Cluster(orders, settings.scheduler, demanded(settings))

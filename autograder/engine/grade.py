@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
 
 import msgspec
@@ -87,13 +88,17 @@ class _Grading:
         self.results: dict[str, Result] = {}
         self.reused = 0
         self.level = self.locks = ""
-        self.corpus: Corpus = draw_corpus(self.stages, settings.seed, settings.examples)
+
+    @cached_property
+    def corpus(self) -> Corpus:
+        """The exam; drawn at the first use, which is while the workers start."""
+        return draw_corpus(self.stages, self.settings.seed, self.settings.examples)
 
     def run(self) -> Run:
         """Do everything; an interruption keeps what is done."""
         interrupted = False
         try:
-            with crew(self._orders(), self.settings) as pool:
+            with crew(self._orders, self.settings, len(self.submissions)) as pool:
                 self.level = level_of(pool, self.settings)
                 self.locks = "" if pool.confinement is None else f"{self.level}: {pool.confinement.detail}"
                 self._confirm(pool, self._first_pass(pool))

@@ -8,7 +8,7 @@ import os
 import signal
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection, wait
 from typing import Any
@@ -39,8 +39,8 @@ class LocalPool:
 
     Parameters
     ----------
-    orders : bytes
-        What every worker is told once.
+    orders : callable
+        Gives what every worker is told once; asked while the workers start.
     size : int
         How many workers.
 
@@ -50,21 +50,23 @@ class LocalPool:
         The level that the first worker reported.
     """
 
-    orders: bytes
+    orders: Callable[[], bytes]
     size: int
     confinement: Ready | None = None
+    _told: bytes | None = None
     _workers: list[_Worker] = field(default_factory=list)
     _false_starts: int = 0
 
     def __enter__(self) -> LocalPool:
-        """Start one worker and wait for it: a machine without locks is noticed before anything is graded."""
+        """Start all workers, and wait for one: a machine without locks is noticed before anything is graded."""
         try:
-            self._workers.append(self._start())
+            self._workers = [self._start() for _ in range(self.size)]
+            self._told = self.orders()
+            for number, each in enumerate(self._workers):
+                if not self._tell(each):
+                    self._workers[number] = self._start()
             while self.confinement is None:
-                try:
-                    self._receive(self._workers[0])
-                except (EOFError, OSError):
-                    self._workers[0] = self._replace(self._workers[0])
+                deque(self._listen(), maxlen=0)
         except BaseException:
             self.close()
             raise
@@ -89,30 +91,34 @@ class LocalPool:
         waiting = deque(jobs)
         known = dict(waiting)
         losses: dict[int, int] = {}
-        while len(self._workers) < min(self.size, len(waiting)):
-            self._workers.append(self._start())
         unfinished = len(waiting)
         while unfinished:
             for each in self._workers:
                 if each.ready and each.job is None and waiting:
                     self._give(each, *waiting.popleft())
-            for connection in wait([each.connection for each in self._workers]):
-                each = next(one for one in self._workers if one.connection is connection)
-                job = each.job
-                try:
-                    answer = self._receive(each)
-                except (EOFError, OSError):
-                    self._workers[self._workers.index(each)] = self._replace(each)
-                    if job is None:
-                        continue
+            for job, answer in self._listen():
+                if answer is None:
                     losses[job] = losses.get(job, 0) + 1
                     if losses[job] < MAX_LOSSES:
                         waiting.appendleft((job, known[job]))
                         continue
-                    answer = GIVEN_UP
-                if answer is not None and job is not None:
-                    done(job, answer)
-                    unfinished -= 1
+                done(job, answer or GIVEN_UP)
+                unfinished -= 1
+
+    def _listen(self) -> Iterator[tuple[int, Answer | None]]:
+        """Wait for what workers say; give every answer with its job, and None for the job of one that is lost."""
+        for connection in wait([each.connection for each in self._workers]):
+            each = next(one for one in self._workers if one.connection is connection)
+            job = each.job
+            try:
+                answer = self._receive(each)
+            except (EOFError, OSError):
+                self._workers[self._workers.index(each)] = self._replace(each)
+                if job is not None:
+                    yield job, None
+            else:
+                if job is not None and answer is not None:
+                    yield job, answer
 
     def _start(self) -> _Worker:
         context = multiprocessing.get_context("spawn")  # a fresh interpreter: nothing of the client is inherited
@@ -122,7 +128,7 @@ class LocalPool:
                 return started
 
     def _start_once(self, context: multiprocessing.context.SpawnContext) -> _Worker | None:
-        """Start a worker; None where it was killed before it had read what to do."""
+        """Start a worker, and tell it the orders if they are known; None where it was killed before it had them."""
         ours, theirs = context.Pipe()
         process = context.Process(target=worker.main, args=(theirs,), daemon=True)
         # A worker is born deaf to Ctrl-C, which is the client's to handle, even while it still imports.
@@ -137,16 +143,23 @@ class LocalPool:
             if before is not None:
                 signal.signal(signal.SIGINT, before)
             theirs.close()
-        # The orders go over the connection, not with the process: starting a process waits for its
-        # arguments to be read, and would wait for ever for one that dies before.
+        started = _Worker(process, ours)
+        return started if self._told is None or self._tell(started) else None
+
+    def _tell(self, each: _Worker) -> bool:
+        """Send the orders; False where the worker was killed before it had them.
+
+        They go over the connection, not with the process: starting a process waits for its
+        arguments to be read, and would wait for ever for one that dies before.
+        """
         try:
-            ours.send_bytes(self.orders)
+            each.connection.send_bytes(self._told or b"")
         except (BrokenPipeError, ConnectionResetError):
-            ours.close()
-            process.join()
+            each.connection.close()
+            each.process.join()
             self._count_false_start("ended before it had its orders")
-            return None
-        return _Worker(process, ours)
+            return False
+        return True
 
     def _replace(self, lost: _Worker) -> _Worker:
         lost.connection.close()

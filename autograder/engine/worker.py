@@ -23,7 +23,7 @@ from autograder.engine.plan import Plan, make_plan
 from autograder.errors import AutograderError, SandboxLost
 from autograder.problems.variants import published
 from autograder.sandbox.frames import Source
-from autograder.sandbox.host import Answers, Limits, Sandbox
+from autograder.sandbox.host import Answers, Limits, Sandbox, Server
 from autograder.stages import answers, written
 from autograder.stages.answers import Sheet
 from autograder.stages.catalogue import stage
@@ -113,10 +113,11 @@ def main(connection: Connection) -> None:
 
     # A lost fork server ends the worker without a word: who waits for it starts another.
     with contextlib.suppress(BrokenPipeError, EOFError, ConnectionResetError, SandboxLost):
-        told = msgspec.msgpack.decode(connection.recv_bytes(), type=Orders)
         try:
+            server = Server()  # it starts while the exam is still being drawn
+            told = msgspec.msgpack.decode(connection.recv_bytes(), type=Orders)
             plan = told.plan()
-            sandbox = Sandbox(plan.inputs, told.limits(), allow_unconfined=told.allow_unconfined)
+            sandbox = Sandbox(plan.inputs, told.limits(), allow_unconfined=told.allow_unconfined, server=server)
         except SandboxLost:
             raise
         except AutograderError as error:

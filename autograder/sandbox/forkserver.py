@@ -30,9 +30,10 @@ _TOKEN = struct.calcsize("i")
 
 def serve(control: socket.socket, grader: int) -> None:
     """Set up, report, and fork children until the grader goes away."""
-    from . import frames  # noqa: PLC0415  # numpy and msgspec are found only after the paths are set
+    from . import frames, policy  # noqa: PLC0415  # numpy and msgspec are found only after the paths are set
 
     try:
+        policy.preload()  # while the grader is still making the inputs
         child, ready = _set_up(frames.decode(_receive(control), frames.Setup))
     except Exception as error:  # noqa: BLE001  # whatever went wrong, the grader has to hear of it
         control.sendall(frames.pack(frames.Ready("", "", 0, f"{type(error).__name__}: {error}")))
@@ -47,11 +48,10 @@ def serve(control: socket.socket, grader: int) -> None:
 
 
 def _set_up(setup: Any) -> tuple[Child, Any]:
-    from . import batches, frames, policy  # noqa: PLC0415  # as above
+    from . import batches, frames  # noqa: PLC0415  # as above
     from .child import Child, furnish  # noqa: PLC0415  # as above
     from .lockdown import Lock  # noqa: PLC0415  # as above
 
-    policy.preload()
     posegraph = _load_posegraph(setup.posegraph)
     inputs = frames.decode(setup.inputs, frames.Inputs)
     objects = [batches.build_object(data, posegraph) for data in inputs.objects]

@@ -29,6 +29,7 @@ __all__ = [
     "Outcome",
     "Outputs",
     "Sandbox",
+    "Server",
     "Session",
 ]
 
@@ -47,6 +48,8 @@ class Sandbox:
     without : collection of str
         Locks to leave off, of "seccomp", "landlock" and "rlimits". For tests that show what each
         of them is good for.
+    server : Server or None
+        A fork server that was started early; it belongs to the sandbox from now on.
 
     Raises
     ------
@@ -62,11 +65,13 @@ class Sandbox:
         *,
         allow_unconfined: bool = False,
         without: Collection[str] = (),
+        server: Server | None = None,
     ) -> None:
         self.limits = limits
-        self._expected = [Expected.of(batch) for batch in frames.decode(inputs, Inputs).batches]
-        self.server = Server(inputs, limits, without)
+        self.server = server or Server()
+        self.server.set_up(inputs, limits, without)
         try:
+            self._expected = [Expected.of(batch) for batch in frames.decode(inputs, Inputs).batches]
             self.confinement: Confinement = confinement_of(self.server.ready)
             if self.confinement.level == "none" and not allow_unconfined:
                 raise SandboxError(

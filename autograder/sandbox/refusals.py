@@ -56,7 +56,8 @@ def trace(source: Source | None = None, limits: Limits = Limits()) -> list[Part]
         Where this machine has no filter, or a kernel older than 5.6, which cannot tell.
     """
     source = source or Source("module", [TORTURE.read_text(encoding="utf-8")], TORTURE.stem)
-    server = Server(encode_inputs(Inputs([], [])), limits, trace=True)
+    server = Server()
+    server.set_up(encode_inputs(Inputs([], [])), limits, trace=True)
     try:
         if server.ready.seccomp:
             raise SandboxError(f"There is no filter to trace on this machine: {server.ready.seccomp}.")

@@ -81,9 +81,14 @@ def confinement_of(ready: frames.Ready) -> Confinement:
 
 
 class Server:
-    """The fork server's process and the control channel to it."""
+    """The fork server's process and the control channel to it.
 
-    def __init__(self, inputs: bytes, limits: Limits, without: Collection[str] = (), *, trace: bool = False) -> None:
+    The process starts at once, and loads what submissions may use while its inputs are still being made.
+    """
+
+    ready: frames.Ready
+
+    def __init__(self) -> None:
         if sys.platform == "win32":
             raise SandboxError("Windows has no fork: grade in WSL2 or in a Linux container.")
         self._control, theirs = socket.socketpair()
@@ -106,6 +111,15 @@ class Server:
                 pass_fds=[theirs.fileno()],
                 start_new_session=True,  # Ctrl-C is the grader's to handle
             )
+
+    def set_up(self, inputs: bytes, limits: Limits, without: Collection[str] = (), *, trace: bool = False) -> None:
+        """Hand over the inputs and the limits of its children, and wait until it is ready.
+
+        Raises
+        ------
+        SandboxError
+            Where it does not start; it is closed then.
+        """
         try:
             self.ready = self._set_up(inputs, limits, without, trace)
         except BaseException:
