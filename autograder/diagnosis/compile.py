@@ -5,9 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
-from autograder.diagnosis.recognise import Given, trusted_call
+from autograder.diagnosis.recognise import Given, laid_out, trusted_call
 from autograder.diagnosis.witness import smallest_witness
 from autograder.problems.cases import Case, key, simplicity
 from autograder.problems.draw import draw_distinct
@@ -67,12 +65,6 @@ def slip_is_wrong(stage: Stage, slip: Slip, case: Case) -> bool:
 
 def _answers(stage: Stage, slip: Slip, calls: Sequence[Case]) -> Given | None:
     values = [trusted_call(slip.function, call, stage.parts) for call in calls]
-    arrays = [array for value in values if value is not None for array in value]
-    if len(arrays) != len(values) * stage.parts:
-        return None
-    return Given(
-        outcome=np.zeros(len(values), dtype=np.uint8),
-        shapes=[array.shape for array in arrays],
-        offsets=np.concatenate([[0], np.cumsum([array.size for array in arrays])]).astype(np.int64),
-        data=np.concatenate([array.ravel() for array in arrays]),
+    return (
+        None if any(value is None or len(value) != stage.parts for value in values) else laid_out(values, stage.parts)
     )

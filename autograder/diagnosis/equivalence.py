@@ -43,14 +43,15 @@ class Rows:
     omega: Array
 
 
-def convention(pairs: Iterable[tuple[Rows, Rows]]) -> Convention | None:
+def convention(pairs: Iterable[tuple[Rows | None, Rows]]) -> Convention | None:
     """Find the convention that explains all cases, each given and expected; None where there is none.
 
-    None as well where nothing differs. The first case without a match ends the search.
+    None as well where nothing differs. The first case without a match ends the search, as does one
+    of which nothing usable was given.
     """
     reordered = turned = False
     for one, other in pairs:
-        match = _match(one, other)
+        match = None if one is None else _match(one, other)
         if match is None:
             return None
         order, signs = match

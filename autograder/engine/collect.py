@@ -169,7 +169,7 @@ def _own_systems(session: Session, plan: Plan, collected: Collected) -> dict[str
         ]
         calls = follow.own_calls(task.cases, [part for part in parts if isinstance(part, Outputs)])
         outputs = None if calls is None else session.call(plan.batch(plan.stage(follow.LAST), calls))
-        systems = None if not isinstance(outputs, Outputs) else follow.own_systems(task.cases, outputs)
+        systems = None if not isinstance(outputs, Outputs) else follow.own_systems(task.cases, task.patterns, outputs)
         if systems is None:
             return None
         found[task.rung.name] = systems

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from autograder.problems.cases import Case
-from autograder.problems.graphs import information
 from autograder.sandbox.host import Outputs
 from autograder.stages.base import Array, fits
 from autograder.stages.gauss_newton_step import BACKWARD_ERROR
@@ -34,49 +34,54 @@ class Systems:
 
 def array_of(outputs: Outputs, number: int) -> Array:
     """Return one returned array in the shape in which it came; nan in a shape that holds no numbers."""
-    values = outputs.data[outputs.offsets[number] : outputs.offsets[number + 1]]
-    shape = outputs.shapes[number]
-    return values.reshape(shape) if values.size == np.prod(shape, dtype=np.int64) else np.full(1, np.nan)
+    return _shaped(outputs.data[outputs.offsets[number] : outputs.offsets[number + 1]], outputs.shapes[number])
+
+
+def arrays_of(outputs: Outputs) -> list[Array]:
+    """Return all returned arrays, each in the shape in which it came."""
+    ends, data = outputs.offsets.tolist(), outputs.data
+    return [_shaped(data[a:b], shape) for a, b, shape in zip(ends, ends[1:], outputs.shapes, strict=False)]
+
+
+def _shaped(values: Array, shape: tuple[int, ...]) -> Array:
+    return values.reshape(shape) if values.size == math.prod(shape) else np.full(1, np.nan)
 
 
 def own_calls(cases: Sequence[Case], ingredients: Sequence[Outputs]) -> list[Case] | None:
     """Return (J, Omega, f) of the student for every case; None where one is not numbers of the right shape."""
     if len(ingredients) != len(INGREDIENTS) or any(outputs.outcome.any() for outputs in ingredients):
         return None
+    if not all(np.isfinite(outputs.data).all() for outputs in ingredients):
+        return None
     calls = []
-    for index, (_, graph) in enumerate(cases):
+    for (_, graph), J, omega, f in zip(cases, *map(arrays_of, ingredients), strict=True):
         m, n = graph.n_factors, graph.n_poses
-        J, omega, f = (array_of(outputs, index) for outputs in ingredients)
         if J.shape != (m, n) or omega.shape != (m, m) or not fits(f.shape, (m,)):
-            return None
-        if not all(np.isfinite(array).all() for array in (J, omega, f)):
             return None
         calls.append((J, omega, f.ravel()))
     return calls
 
 
-def own_systems(cases: Sequence[Case], outputs: Outputs) -> Systems | None:
+def own_systems(cases: Sequence[Case], patterns: Sequence[NDArray[np.bool_]], outputs: Outputs) -> Systems | None:
     """Read the student's H and b; None where an H is not positive definite with the true pattern.
 
     None too where no step has to be worked out, because 0 or -x solves every system: an f that is 0,
     or one that no measurement enters, would pay for a step of one line.
     """
-    if outputs.outcome.any():
+    if outputs.outcome.any() or not np.isfinite(outputs.data).all():
         return None
-    systems = Systems([], [])
-    for index, (_, graph) in enumerate(cases):
-        H, b = array_of(outputs, 2 * index), array_of(outputs, 2 * index + 1)
-        if not _sound(H, information(graph) != 0) or not fits(b.shape, (graph.n_poses,)) or not np.isfinite(b).all():
+    arrays = arrays_of(outputs)
+    systems = Systems(arrays[::2], [b.ravel() for b in arrays[1::2]])
+    for H, b, pattern in zip(systems.H, arrays[1::2], patterns, strict=True):
+        if not fits(b.shape, (len(pattern),)) or not _sound(H, pattern):
             return None
-        systems.H.append(H)
-        systems.b.append(b.ravel())
     states = [x for x, _ in cases]
     trivial = any(systems.solved_by([factor * x for x in states]) for factor in (0.0, -1.0))
     return None if trivial else systems
 
 
 def _sound(H: Array, pattern: NDArray[np.bool_]) -> bool:
-    if H.shape != pattern.shape or not np.isfinite(H).all():
+    if H.shape != pattern.shape:
         return False
     size = np.abs(H).max(initial=0.0)
     if not np.abs(H - H.T).max(initial=0.0) <= 1e-9 * size:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from autograder.engine import evidence, follow
 from autograder.engine.collect import Absent, Collected, Reply
 from autograder.engine.groups import digest
 from autograder.engine.plan import Plan, Task
-from autograder.problems.cases import simplicity
+from autograder.problems.cases import Case
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs
 from autograder.stages.base import Slip, Stage
@@ -102,8 +103,7 @@ class Judge:
         """Pay the follow-through share for a step that solves the student's own equations."""
         if check.passed or not isinstance(reply.outputs, Outputs) or reply.outputs.outcome.any():
             return check
-        steps = [follow.array_of(reply.outputs, index) for index in range(len(task.cases))]
-        if not own[task.rung.name].solved_by(steps):
+        if not own[task.rung.name].solved_by(follow.arrays_of(reply.outputs)):
             return check
         return _check_verdict(
             task,
@@ -133,16 +133,20 @@ class Judge:
         }
         if all(reply is not None and reply.passed for found in replies.values() for reply in found):
             return None
-        calls = []
-        for position, task in enumerate(self.plan.tasks_of(stages[0])):
-            parts = [replies[name][position] for name in _INTERCHANGEABLE]
-            outputs = [part.outputs for part in parts if part is not None and isinstance(part.outputs, Outputs)]
-            own = follow.own_calls(task.cases, [outputs[1], outputs[2], outputs[0]]) if len(outputs) == 3 else None
-            if own is None:
-                return None
-            calls += own
-        given = (Rows(f, J, omega) for J, omega, f in calls)
-        return convention(zip(given, self._expected_rows(stages), strict=True))
+        given = (
+            None if own is None else Rows(own[2], own[0], own[1])
+            for position, task in enumerate(self.plan.tasks_of(stages[0]))
+            for own in self._own_rows(task, [replies[name][position] for name in _INTERCHANGEABLE])
+        )
+        return convention(zip(given, self._expected_rows(stages), strict=False))
+
+    def _own_rows(self, task: Task, parts: Sequence[Reply | None]) -> Iterable[Case | None]:
+        """Give J, Omega and f of the student case by case; None once where they are not numbers of the right shape."""
+        f, J, omega = (
+            None if part is None or not isinstance(part.outputs, Outputs) else part.outputs for part in parts
+        )
+        own = None if f is None or J is None or omega is None else follow.own_calls(task.cases, [J, omega, f])
+        return [None] if own is None else own
 
     def _expected_rows(self, stages: list[Stage]) -> list[Rows]:
         """Return f, J and Omega of every case of the graphs, worked out once."""
@@ -223,4 +227,5 @@ def _check(task: Task, reply: Reply, points: float) -> tuple[CheckVerdict, Stage
 
 def simplest(task: Task, chosen: NDArray[np.bool_]) -> int:
     """Return the number of the simplest of the chosen cases."""
-    return min(np.flatnonzero(chosen).tolist(), key=lambda index: simplicity(task.cases[index]))
+    found = np.flatnonzero(chosen)
+    return int(found[np.argmin(task.order[found])])

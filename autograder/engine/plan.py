@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from assignment.posegraph import PoseGraph, Ranging
 from autograder.diagnosis.gallery import gallery
 from autograder.engine.corpus import Corpus
-from autograder.problems.cases import Case
+from autograder.problems.cases import Case, simplicity
+from autograder.problems.graphs import information
 from autograder.problems.ladders import Rung
 from autograder.sandbox import frames
 from autograder.stages.base import Stage
@@ -46,6 +47,17 @@ class Task:
         """For each case the number of its first call in the batch."""
         counts = np.array([len(self.stage.calls(case)) for case in self.cases])
         return np.asarray(np.cumsum(counts) - counts)
+
+    @cached_property
+    def order(self) -> NDArray[np.int64]:
+        """For each case its place from simple to rich."""
+        order = sorted(range(len(self.cases)), key=lambda index: simplicity(self.cases[index]))
+        return np.argsort(np.array(order))
+
+    @cached_property
+    def patterns(self) -> list[NDArray[np.bool_]]:
+        """For each case (x, graph) where H is not 0."""
+        return [information(graph) != 0 for _, graph in self.cases]
 
     @cached_property
     def prepared(self) -> Any:
@@ -195,7 +207,7 @@ def _joined(batches: Sequence[frames.Batch]) -> frames.Batch:
 
 
 def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[Shared, int]) -> frames.Batch:
-    largest = max((array.size for call in calls for array in stage.expected(*call)), default=0)
+    largest = max((stage.largest(*call) for call in calls), default=0)
     return frames.Batch(
         function=stage.function,
         parts=stage.parts,

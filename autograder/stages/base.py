@@ -137,6 +137,10 @@ class Stage(ABC):
     def expected(self, *arguments: Any) -> tuple[Array, ...]:
         """Return the right answer to one call, by the reference."""
 
+    def largest(self, *arguments: Any) -> int:
+        """Return how many numbers the largest array of the right answer has; a stage may know without the answer."""
+        return max(array.size for array in self.expected(*arguments))
+
     @abstractmethod
     def prepare(self, cases: Sequence[Case]) -> Any:
         """Work out once, for all submissions, what the verdict on these cases needs."""

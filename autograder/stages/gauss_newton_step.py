@@ -65,6 +65,10 @@ class GaussNewtonStep(Stage):
         """Return dx by the reference."""
         return (slam1d.gauss_newton_step(x, graph),)
 
+    def largest(self, x: Array, graph: PoseGraph) -> int:
+        """Return n."""
+        return graph.n_poses
+
     def prepare(self, cases: Sequence[Case]) -> Systems:
         """Form every H and b once, and keep the entries of H that are not 0."""
         systems = [_system(x, graph) for x, graph in cases]

@@ -26,6 +26,10 @@ class NormalEquations(ArrayStage):
         """Return H and b."""
         return slam1d.normal_equations(J, omega, f)
 
+    def largest(self, J: Array, omega: Array, f: Array) -> int:
+        """Return n^2, the size of H."""
+        return int(J.shape[1] ** 2)
+
     def tolerance(self, J: Array, omega: Array, f: Array) -> tuple[Array, ...]:
         """Allow 1e-9 of |J|^T Omega |J| and |J|^T Omega |f|, the bounds of rounding in these sums.
 

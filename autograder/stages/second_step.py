@@ -66,6 +66,10 @@ class SecondStep(Stage):
         """Return dx by the reference; it sizes the replies and plays no part in the verdict."""
         return (slam1d.gauss_newton_step(x, graph),)
 
+    def largest(self, x: Array, graph: PoseGraph) -> int:
+        """Return n."""
+        return graph.n_poses
+
     def prepare(self, cases: Sequence[Case]) -> Loops:
         """Lay out all calls of all loops."""
         calls = [self.calls(case) for case in cases]

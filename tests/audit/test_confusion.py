@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import pytest
 
-from autograder.diagnosis.recognise import Given, Recogniser, trusted_call
+from autograder.diagnosis.recognise import Given, Recogniser, laid_out, trusted_call
 from autograder.engine.corpus import draw_corpus
 from autograder.stages.base import Slip, Stage
 from autograder.stages.catalogue import all_stages, slips
@@ -17,14 +16,7 @@ WITH_SLIPS = [stage for stage in all_stages() if slips(stage.name)]
 
 def answers(slip: Slip, stage: Stage, calls: list[Any]) -> Given:
     """Lay what a slip returns end to end; a call that raises has an outcome that is not 0."""
-    values = [trusted_call(slip.function, call, stage.parts) for call in calls]
-    arrays = [array for value in values for array in (value or (np.zeros(0),) * stage.parts)]
-    return Given(
-        outcome=np.array([value is None for value in values], dtype=np.uint8),
-        shapes=[array.shape for array in arrays],
-        offsets=np.concatenate([[0], np.cumsum([array.size for array in arrays])]).astype(np.int64),
-        data=np.concatenate([array.ravel() for array in arrays]),
-    )
+    return laid_out([trusted_call(slip.function, call, stage.parts) for call in calls], stage.parts)
 
 
 def confusion(stage: Stage, examples: int, seed: int = 0) -> dict[str, str | None]:
