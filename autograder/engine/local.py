@@ -19,6 +19,7 @@ from autograder.engine import worker
 from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Answer
 from autograder.engine.worker import Grade, Ready, Trouble
 from autograder.errors import SandboxError
+from autograder.sandbox.server import ONE_THREAD
 
 _MAIN = threading.main_thread()  # the only one that may set signal handlers
 MAX_STARTS = 4  # workers in a row that end before they are ready, before the run is given up
@@ -131,17 +132,14 @@ class LocalPool:
         """Start a worker, and tell it the orders if they are known; None where it was killed before it had them."""
         ours, theirs = context.Pipe()
         process = context.Process(target=worker.main, args=(theirs,), daemon=True)
-        # A worker is born deaf to Ctrl-C, which is the client's to handle, even while it still imports.
-        before = signal.signal(signal.SIGINT, signal.SIG_IGN) if threading.current_thread() is _MAIN else None
         try:
-            process.start()
+            with _as_a_worker():
+                process.start()
         except BrokenPipeError:
             ours.close()
             self._count_false_start("killed at once")
             return None
         finally:
-            if before is not None:
-                signal.signal(signal.SIGINT, before)
             theirs.close()
         started = _Worker(process, ours)
         return started if self._told is None or self._tell(started) else None
@@ -192,6 +190,27 @@ class LocalPool:
             return None
         each.job = None
         return message
+
+
+@contextlib.contextmanager
+def _as_a_worker() -> Iterator[None]:
+    """Give what a process inherits from its start on: one thread for numpy, and no ear for Ctrl-C.
+
+    Ctrl-C is the client's to handle, even while a worker still imports.
+    """
+    before = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ.update(ONE_THREAD)
+    handler = signal.signal(signal.SIGINT, signal.SIG_IGN) if threading.current_thread() is _MAIN else None
+    try:
+        yield
+    finally:
+        if handler is not None:
+            signal.signal(signal.SIGINT, handler)
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
 
 
 def default_workers() -> int:

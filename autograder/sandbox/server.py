@@ -25,7 +25,8 @@ from autograder.sandbox.channel import WALL_FACTOR, Budget, Channel
 _FOLDER = Path(__file__).resolve().parent
 _POSEGRAPH = _FOLDER.parent.parent / "assignment" / "posegraph.py"
 _START_SECONDS, _REPLY_SECONDS = 60.0, 30.0
-_ONE_THREAD = ("OPENBLAS", "OMP", "MKL", "BLIS", "VECLIB_MAXIMUM", "NUMEXPR")
+# One thread for numpy: a process a core is what keeps all of them busy, and a locked child may start no thread.
+ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OPENBLAS", "OMP", "MKL", "BLIS", "VECLIB_MAXIMUM", "NUMEXPR")}
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,7 @@ class Server:
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
                 cwd="/",
-                env={"PYTHONHASHSEED": "0", "LC_ALL": "C.UTF-8"} | {f"{name}_NUM_THREADS": "1" for name in _ONE_THREAD},
+                env={"PYTHONHASHSEED": "0", "LC_ALL": "C.UTF-8", **ONE_THREAD},
                 pass_fds=[theirs.fileno()],
                 start_new_session=True,  # Ctrl-C is the grader's to handle
             )

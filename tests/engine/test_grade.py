@@ -1,6 +1,7 @@
 """A run over a class: nothing lost, nothing run twice, the same marks whoever runs it."""
 
 import json
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -8,6 +9,7 @@ import sys
 import threading
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -223,3 +225,21 @@ def test_nothing_of_the_run_is_left(uploads, tmp_path):
     with open(f"/proc/{os.getpid()}/task/{os.getpid()}/children") as file:
         assert not [pid for pid in file.read().split() if b"spawn_main" in _command(pid)]
     assert threading.active_count() == before
+
+
+def test_a_worker_computes_in_one_thread(uploads, tmp_path, monkeypatch):
+    """What numpy reads when it is loaded is set in a worker, and the client's own environment stays as it was."""
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "7")
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    found = []
+
+    def look(_):
+        for each in multiprocessing.active_children():
+            words = Path(f"/proc/{each.pid}/environ").read_bytes().split(b"\0")
+            found.append({b"OPENBLAS_NUM_THREADS=1", b"OMP_NUM_THREADS=1"} <= set(words))
+
+    grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out", look)
+    assert found
+    assert all(found)
+    assert os.environ["OPENBLAS_NUM_THREADS"] == "7"
+    assert "OMP_NUM_THREADS" not in os.environ
