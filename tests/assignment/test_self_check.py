@@ -3,6 +3,7 @@
 import ast
 import importlib
 import pkgutil
+import re
 import sys
 import time
 from pathlib import Path
@@ -11,6 +12,9 @@ import numpy as np
 import pytest
 
 import assignment.posegraph
+from autograder.problems import families
+from autograder.problems.secret import Secret
+from autograder.problems.variants import draw_variant
 from autograder.stages import slips, wording
 from autograder.stages.base import Slip
 from reference_solution import slam1d
@@ -46,6 +50,22 @@ ONLY_THE_GRADER = {
 }
 
 
+WIDTH = 100  # characters that a page shows of a line before it breaks it in the middle of a word
+
+# What would answer question 2 or 3 before a student has.
+CLUES = (
+    r"(?i)second step",
+    r"(?i)one step",
+    r"(?i)nothing",
+    r"(?i)vanish",
+    r"(?i)linear",
+    r"(?i)quadratic",
+    r"(?i)any start",
+    r"(?i)lowest",
+    r"(?i)minimum",
+)
+
+
 def failing(self_check, work):
     """Stages at which some check fails."""
     core = [stage for stage in self_check.STAGES if stage not in self_check.BONUS and stage != "iterates"]
@@ -70,10 +90,26 @@ def test_right_work_passes_everything_quickly(self_check, capsys):
     began = time.perf_counter()
     self_check.check_all({**right_work(), "my_graph": graph, "my_start": x, "iterates": np.array(rows)})
     assert time.perf_counter() - began < 2.0
-    *lines, last = capsys.readouterr().out.splitlines()
+    shown = capsys.readouterr().out
+    assert shown.endswith(f"\n{self_check.UNSEEN}\n")
+    lines = shown[: -len(self_check.UNSEEN) - 1].splitlines()
     assert len(lines) == sum(len(checks) for checks in self_check.STAGES.values())
     assert [line for line in lines if not line.startswith("PASS  ")] == []
-    assert last == self_check.UNSEEN
+    assert max(map(len, shown.splitlines())) <= WIDTH
+    told = re.sub(r"(?m)^PASS  \w+: ", "", shown)
+    assert [clue for clue in CLUES if re.search(clue, told)] == []
+
+
+@pytest.mark.parametrize("letter", sorted(families.names()))
+def test_right_work_passes_on_every_family(self_check, letter):
+    """On a student's own numbers nothing fails, whatever the family."""
+    problem = draw_variant(Secret(b"0123456789abcdef"), "2026S", "s1", families.family(letter)).problem
+    rows = [problem.start]
+    for _ in range(3):
+        rows.append(rows[-1] + slam1d.gauss_newton_step(rows[-1], problem.graph))
+    work = {**right_work(), "my_graph": problem.graph, "my_start": problem.start, "iterates": np.array(rows)}
+    found = {stage: self_check.failures(stage, work) for stage in self_check.STAGES}
+    assert [(stage, wrong) for stage, checks in found.items() for _, wrong in checks if wrong] == []
 
 
 def test_the_words_are_the_graders(self_check):
@@ -93,6 +129,14 @@ def test_an_older_python_can_read_it():
         imported = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
         imported |= {n.name for node in ast.walk(tree) if isinstance(node, ast.Import) for n in node.names}
         assert {str(name).partition(".")[0] for name in imported} <= {*sys.stdlib_module_names, "numpy", "posegraph"}
+
+
+@pytest.mark.parametrize(("stage", "slip"), [case for case in all_slips() if case.values[0] == "second_step"])
+def test_the_second_step_is_still_checked(self_check, stage, slip):
+    """Each known mistake of the second step fails in its own stage, and no message says what right code gives."""
+    found = self_check.failures(stage, {**right_work(), "gauss_newton_step": slip.function})
+    assert any(wrong for _, wrong in found)
+    assert not any(re.search(r"not 0|should be 0|expected", wrong) for _, wrong in found)
 
 
 @pytest.mark.parametrize(
@@ -123,7 +167,8 @@ def test_unfinished_work_is_no_failure(self_check, capsys):
     with pytest.raises(self_check.Unfinished, match="jacobian is not defined"):
         self_check.check("jacobian", {})
     self_check.check_all({})
-    assert [line[:4] for line in capsys.readouterr().out.splitlines()] == ["TODO"] * 7 + ["What"]
+    lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith(" ")]
+    assert [line[:4] for line in lines] == ["TODO"] * 7 + ["What"]
 
 
 def test_wrong_iterates_are_pointed_at(self_check):
