@@ -21,6 +21,7 @@ from reference_solution import slam1d
 
 sys.modules.setdefault("posegraph", assignment.posegraph)
 FILE = Path(__file__).parents[2] / "assignment" / "self_check.py"
+CORRECT = sorted((FILE.parents[1] / "autograder" / "specimens" / "correct").glob("*.py"))
 
 
 @pytest.fixture(scope="module")
@@ -112,6 +113,15 @@ def test_right_work_passes_on_every_family(self_check, letter):
     assert [(stage, wrong) for stage, checks in found.items() for _, wrong in checks if wrong] == []
 
 
+@pytest.mark.filterwarnings("ignore:the matrix subclass:PendingDeprecationWarning")  # one of the styles
+@pytest.mark.parametrize("path", CORRECT, ids=lambda path: path.stem)
+def test_every_correct_style_passes(self_check, path):
+    """What the grader gives all points passes here; only a changed argument, there a remark, is a FAIL."""
+    work = {"__name__": "slam1d"}
+    exec(compile(path.read_bytes(), str(path), "exec"), work)
+    assert bool(failing(self_check, work)) == (path.stem == "style_16_moves_its_argument")
+
+
 def test_the_words_are_the_graders(self_check):
     """Rows, numbers and vectors are named in the self-check as the grader names them."""
     for graph in (self_check.WORKED, self_check.PUBLIC["two priors"][1]):
@@ -119,7 +129,8 @@ def test_the_words_are_the_graders(self_check):
             assert self_check.factor(graph, row) == wording.factor(graph, row)
     for value in (0.0, -0.0, 1200.0, 0.1 + 0.2, -2.5, 1e9):
         assert self_check.number(value) == wording.number(value)
-    assert self_check.vector(np.array([1.0, -0.0, 2.5])) == wording.vector(np.array([1.0, -0.0, 2.5]))
+    for values in ([1.0, -0.0, 2.5], [1.94289e-18, 0.1, -0.1], [2e-17, 1e-17]):
+        assert self_check.vector(np.array(values)) == wording.vector(np.array(values))
 
 
 def test_an_older_python_can_read_it():
@@ -131,6 +142,60 @@ def test_an_older_python_can_read_it():
         assert {str(name).partition(".")[0] for name in imported} <= {*sys.stdlib_module_names, "numpy", "posegraph"}
 
 
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (lambda *_: None, "returned None, expected an array of shape (6,). Is `return` missing?"),
+        (lambda *_: "f", "returned str, expected an array of shape (6,)"),
+        (lambda x, _: x, "returned shape (5,), expected (6,)"),
+        (lambda *_: np.full(6, np.nan), "not finite"),
+        (lambda *_: 1 / 0, "raised ZeroDivisionError: division by zero (line"),
+        (lambda *_: sys.exit(), "raised SystemExit"),
+        (lambda *_: np.zeros(6) + 0j, "returned complex numbers, expected real ones"),
+        (lambda *_: [[1, 2], [3]], "returned list, expected an array of shape (6,)"),
+    ],
+    ids=["none", "str", "shape", "nan", "raises", "exits", "complex", "ragged"],
+)
+def test_odd_values_are_named_once(self_check, capsys, function, message):
+    """None, text, a wrong shape, nan, an error and exit() give one FAIL with what came and what was expected."""
+    work = {**right_work(), "residual": function}
+    ((_line, wrong),) = self_check.failures("residual", work)
+    assert message in wrong
+    self_check.check("residual", work)
+    shown = capsys.readouterr().out
+    assert shown.count("FAIL") == 1
+    assert "The other checks were not run." in shown
+
+
+def test_a_missing_return_of_a_pair_is_named(self_check):
+    """`normal_equations` without `return` is told so, and a wrong shape says of which of the two."""
+    (first, *_) = self_check.failures("normal_equations", {**right_work(), "normal_equations": lambda *_: None})
+    assert "normal_equations returned None, expected a tuple of 2 arrays. Is `return` missing?" in first[1]
+    turned = {**right_work(), "normal_equations": lambda *given: slam1d.normal_equations(*given)[::-1]}
+    assert (
+        "H of normal_equations returned shape (2,), expected (2, 2)."
+        in self_check.failures("normal_equations", turned)[0][1]
+    )
+
+
+def moved(x, graph):
+    """Answer rightly, but move the state itself."""
+    dx = slam1d.gauss_newton_step(x, graph)
+    x += dx
+    return dx
+
+
+def test_an_argument_changed_in_place_fails(self_check):
+    """A step that moves the given x returns the right dx and spoils my_start: it is told so in the grader's words."""
+    found = self_check.failures("gauss_newton_step", {**right_work(), "gauss_newton_step": moved})
+    assert "gauss_newton_step changes its argument in place; work on a copy" in found[0][1]
+
+
+def by_identifier(name):
+    """The function of one catalogued slip."""
+    return next(case.values[1].function for case in all_slips() if case.values[1].identifier == name)
+
+
 @pytest.mark.parametrize(("stage", "slip"), [case for case in all_slips() if case.values[0] == "second_step"])
 def test_the_second_step_is_still_checked(self_check, stage, slip):
     """Each known mistake of the second step fails in its own stage, and no message says what right code gives."""
@@ -139,21 +204,104 @@ def test_the_second_step_is_still_checked(self_check, stage, slip):
     assert not any(re.search(r"not 0|should be 0|expected", wrong) for _, wrong in found)
 
 
+def test_a_step_that_stays_does_not_lower_the_cost(self_check):
+    """A step of zero, or one that swings over to the same cost, is no step down."""
+    for name in ("never_moves", "swings_past_the_minimum"):
+        found = dict(
+            self_check.failures("gauss_newton_step", {**right_work(), "gauss_newton_step": by_identifier(name)})
+        )
+        assert "the cost was" in found["The step makes the cost lower."]
+
+
+def test_values_that_print_alike_get_more_digits(self_check):
+    """What came and what was expected never read the same."""
+
+    def heavier(*given):
+        H, b = slam1d.normal_equations(*given)
+        return H + 1e-3 * np.eye(len(b)), b
+
+    def single(x, graph):
+        return slam1d.residual(x, graph).astype(np.float32)
+
+    for name, function in (("normal_equations", heavier), ("residual", single)):
+        pairs = [
+            re.search(r"got (.+?), expected (.+?)[.,]? ", wrong + " ")
+            for _, wrong in self_check.failures(name, {**right_work(), name: function})
+            if wrong
+        ]
+        assert pairs
+        assert all(pair[1] != pair[2] for pair in pairs)
+
+
 @pytest.mark.parametrize(
-    ("function", "message"),
-    [
-        (lambda *_: None, "returned None, expected an array of shape (6,)"),
-        (lambda *_: "f", "returned str, expected an array of shape (6,)"),
-        (lambda x, _: x, "returned shape (5,), expected (6,)"),
-        (lambda *_: np.full(6, np.nan), "not finite"),
-        (lambda *_: 1 / 0, "raised ZeroDivisionError: division by zero (line"),
-    ],
-    ids=["none", "str", "shape", "nan", "raises"],
+    ("name", "guess"),
+    [("b_has_opposite_sign", "(the sign?)"), ("h_doubled", "(a factor 2?)"), ("b_doubled", "(a factor 2?)")],
 )
-def test_odd_values_are_named(self_check, function, message):
-    """None, text, a wrong shape, nan and an error each give FAIL with what came and what was expected."""
-    found = self_check.failures("residual", {**right_work(), "residual": function})
-    assert all(message in wrong for _line, wrong in found)
+def test_a_sign_and_a_factor_are_guessed(self_check, name, guess):
+    """Where all of H or b is turned or doubled, the message asks for it, and names the system, not a graph."""
+    found = self_check.failures("normal_equations", {**right_work(), "normal_equations": by_identifier(name)})
+    assert all(guess in wrong for _, wrong in found)
+    assert found[0][1].startswith("with J = [[1, 2], [0, 1], [3, -1]], omega = np.diag([3, 7, 11]), f = [1, -2, 5]: ")
+    assert "half the " in found[0][1]
+
+
+def test_the_function_to_repair_first_is_named(self_check):
+    """Right functions that are checked against a wrong one say which to repair; checks of their own do not."""
+    covariance = {**right_work(), "information_matrix": by_identifier("covariance_used_as_information")}
+    (own, with_others) = self_check.failures("normal_equations", covariance)
+    assert own[1] == ""
+    assert with_others[1].endswith(" But information_matrix fails its own check: repair that first.")
+    (weight, _) = self_check.failures("information_matrix", covariance)
+    assert "weight x variance (the variances themselves stand on the diagonal)" in weight[1]
+    assert "repair" not in weight[1]
+    turned = {**right_work(), "residual": lambda *given: -slam1d.residual(*given)}
+    (sums, derivative) = self_check.failures("jacobian", turned)
+    assert sums[1] == ""
+    assert derivative[1].endswith(" But residual fails its own check: repair that first.")
+    found = self_check.failures("gauss_newton_step", {**right_work(), "jacobian": by_identifier("loop_row_is_zero")})
+    assert any("But jacobian fails its own check" in wrong for _, wrong in found)
+
+
+def test_a_public_graph_can_be_looked_at(self_check, capsys):
+    """A failure on a public graph says how to print it, and that line works."""
+    work = {**right_work(), "jacobian": by_identifier("backward_edge_read_forward")}
+    self_check.check("jacobian", work)
+    (line,) = [line for line in capsys.readouterr().out.splitlines() if "Its factors: " in line]
+    code = line.partition("Its factors: ")[2]
+    exec(code.replace("import self_check", "from assignment import self_check"), {})
+    assert "row 1: edge 2 -> 1, measured -1.2 m" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["residual", "jacobian", "normal_equations", "gauss_newton_step"])
+def test_lines_fit_a_page(self_check, capsys, name):
+    """Long messages are broken between words, and what follows is indented."""
+
+    def fails(*_):
+        raise ValueError("a long story of what went wrong, " * 9)
+
+    for function in (fails, lambda *given: getattr(slam1d, name)(*given[::-1]), lambda *_: None):
+        self_check.check_all({**right_work(), name: function})
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= WIDTH
+    assert {line[:6] for line in lines} <= {"PASS  ", "FAIL  ", "TODO  ", "      ", "What t"}
+
+
+def test_a_loop_without_end_says_so(self_check, capsys, monkeypatch):
+    """A check that runs long names its stage while it runs; one that is quick does not."""
+    monkeypatch.setattr(self_check, "PATIENCE", 0.05)
+    right = right_work()
+    self_check.check("information_matrix", right)
+    assert "still runs" not in capsys.readouterr().out
+    calls = []
+
+    def slow(x, graph):
+        if not calls:
+            time.sleep(0.5)
+        calls.append(x)
+        return slam1d.residual(x, graph)
+
+    self_check.check("residual", {**right, "residual": slow})
+    assert capsys.readouterr().out.startswith("...   residual still runs: does every loop end?")
 
 
 def test_unfinished_work_is_no_failure(self_check, capsys):
@@ -169,6 +317,9 @@ def test_unfinished_work_is_no_failure(self_check, capsys):
     self_check.check_all({})
     lines = [line for line in capsys.readouterr().out.splitlines() if not line.startswith(" ")]
     assert [line[:4] for line in lines] == ["TODO"] * 7 + ["What"]
+    self_check.check_all({"conclusion": None, "written_2": None, "written_3": "I saw that"})
+    shown = capsys.readouterr().out
+    assert "TODO  conclusion: it is still None.\nTODO  written_2: it is still None.\nWhat" in shown
 
 
 def test_wrong_iterates_are_pointed_at(self_check):
@@ -176,6 +327,11 @@ def test_wrong_iterates_are_pointed_at(self_check):
     graph, x = self_check.WORKED, self_check.WORKED.dead_reckoning()
     work = {**right_work(), "my_graph": graph, "my_start": x}
     ((_, wrong),) = self_check.failures("iterates", {**work, "iterates": np.array([x, x, x, x])})
-    assert "row 1 of iterates" in wrong
+    assert "row 1 of iterates, x^(1), is [0 1.1 2.1 3.2 0.5]: it is not row 0 plus your step" in wrong
+    ((_, wrong),) = self_check.failures("iterates", {**work, "iterates": np.array([0 * x, x, x, x])})
+    assert "row 0 of iterates, x^(0), is [0 0 0 0 0]: it is not dead reckoning" in wrong
+    spoilt = x + slam1d.gauss_newton_step(x, graph)  # my_start after a step that changed it in place
+    found = self_check.failures("iterates", {**work, "my_start": spoilt, "iterates": np.array([spoilt] * 4)})
+    assert "it is not dead reckoning; run the cell of my_start again" in found[0][1]
     ((_, wrong),) = self_check.failures("iterates", {**work, "iterates": np.zeros((2, 5))})
-    assert "expected (4, 5)" in wrong
+    assert "iterates has shape (2, 5), expected (4, 5)" in wrong
