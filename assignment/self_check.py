@@ -19,7 +19,11 @@ from pathlib import Path
 from typing import Any, Callable
 
 import numpy as np
-from posegraph import PoseGraph, Ranging
+
+try:
+    from posegraph import PoseGraph, Ranging
+except ModuleNotFoundError:
+    raise SystemExit("posegraph.py must lie beside self_check.py.") from None
 
 UNSEEN = (
     "What this check cannot see: mistakes that show on other graphs only, such as typed-in\n"
@@ -464,6 +468,13 @@ def check_all(namespace: dict[str, Any]) -> None:
 
 if __name__ == "__main__":
     file = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).with_name("slam1d.py")
+    if file.suffix == ".ipynb":
+        sys.exit("This checks modules; in the notebook, run its last cell, check_all(globals()).")
+    print(f"Checking {file.name} (working in the notebook? Run its last cell, check_all, instead).", flush=True)
     work: dict[str, Any] = {"__name__": "slam1d"}
-    exec(compile(file.read_text(encoding="utf-8"), str(file), "exec"), work)
+    try:
+        exec(compile(file.read_bytes(), str(file), "exec", dont_inherit=True), work)
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - a student's code may raise anything
+        at = [f", line {f.lineno}" for f in traceback.extract_tb(error.__traceback__) if f.filename == str(file)]
+        sys.exit(f"{file.name}{(*at, '')[0]}: {type(error).__name__}: {error}")
     check_all(work)

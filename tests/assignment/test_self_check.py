@@ -4,6 +4,8 @@ import ast
 import importlib
 import pkgutil
 import re
+import shutil
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -288,10 +290,10 @@ def test_lines_fit_a_page(self_check, capsys, name):
 
 def test_a_loop_without_end_says_so(self_check, capsys, monkeypatch):
     """A check that runs long names its stage while it runs; one that is quick does not."""
-    monkeypatch.setattr(self_check, "PATIENCE", 0.05)
     right = right_work()
     self_check.check("information_matrix", right)
     assert "still runs" not in capsys.readouterr().out
+    monkeypatch.setattr(self_check, "PATIENCE", 0.05)
     calls = []
 
     def slow(x, graph):
@@ -335,3 +337,60 @@ def test_wrong_iterates_are_pointed_at(self_check):
     assert "it is not dead reckoning; run the cell of my_start again" in found[0][1]
     ((_, wrong),) = self_check.failures("iterates", {**work, "iterates": np.zeros((2, 5))})
     assert "iterates has shape (2, 5), expected (4, 5)" in wrong
+
+
+STUB = (FILE.parent / "slam1d.py").read_text(encoding="utf-8")
+REFERENCE = Path(slam1d.__file__).read_text(encoding="utf-8")
+
+
+def in_terminal(folder, *arguments, without=()):
+    """Run `python self_check.py` in a folder as a student has it; return code, output and error text."""
+    for name in {"self_check.py", "posegraph.py"} - set(without):
+        shutil.copyfile(FILE.parent / name, folder / name)
+    command = [sys.executable, "self_check.py", *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, encoding="utf-8", check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_the_terminal_says_what_it_checks_and_how_to_go_on(tmp_path):
+    """The first line names the file; unfinished functions of a file are not run as cells, but saved."""
+    (tmp_path / "slam1d.py").write_bytes(b"\xef\xbb\xbf" + STUB.encode())  # as an editor on Windows saves it
+    code, shown, error = in_terminal(tmp_path)
+    assert (code, error) == (0, "")
+    assert shown.startswith("Checking slam1d.py (working in the notebook? Run its last cell, check_all, instead).\n")
+    open_work = shown.partition("\n")[2].partition("What")[0].splitlines()
+    assert open_work[0] == "TODO  residual: not finished yet: write it, save it, check again."
+    assert open_work[5] == "TODO  second_step: gauss_newton_step is not finished yet: write it, save it, check again."
+    assert open_work[7:] == [f"TODO  {name}: it is still None." for name in ("conclusion", "written_2", "written_3")]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "without", "message"),
+    [
+        (
+            "slam1d.ipynb",
+            b"{}",
+            (),
+            r"This checks modules; in the notebook, run its last cell, check_all\(globals\(\)\)\.",
+        ),
+        ("none.py", None, (), r"none\.py: FileNotFoundError: .*"),
+        ("slam1d.py", b"f = 1\nx = (2 +\n", (), r"slam1d\.py: SyntaxError: .*\(slam1d\.py, line 2\)"),
+        ("slam1d.py", b"f = '\xe9'\n", (), r"slam1d\.py: SyntaxError: .*utf-8.*"),
+        (
+            "slam1d.py",
+            STUB.encode() + b"\n\nprint(residual(my_start, my_graph))\n",
+            (),
+            r"slam1d\.py, line 265: NotImplementedError: residual is not finished yet: .*\.",
+        ),
+        ("slam1d.py", b"exit()\n", (), r"slam1d\.py, line 1: SystemExit: None"),
+        ("slam1d.py", STUB.encode(), ("posegraph.py",), r"posegraph\.py must lie beside self_check\.py\."),
+    ],
+    ids=["notebook", "missing", "syntax", "latin-1", "top-level", "exit", "posegraph"],
+)
+def test_a_file_that_cannot_be_checked_gives_one_sentence(tmp_path, name, text, without, message):
+    """No traceback: what came, on which line, and exit code 1."""
+    if text is not None:
+        (tmp_path / name).write_bytes(text)
+    code, _shown, error = in_terminal(tmp_path, name, without=without)
+    assert code == 1
+    assert re.fullmatch(message, error.strip())
