@@ -45,10 +45,18 @@ class Plan:
     cases: tuple[_Case, ...]
 
 
-def build_object(data: GraphData | RangingData, posegraph: ModuleType) -> Any:
-    """Build a graph or a ranging from its bytes."""
+Shared = dict[tuple[str, bytes], Any]
+"""Arrays by their type and bytes."""
+
+
+def build_object(data: GraphData | RangingData, posegraph: ModuleType, shared: Shared) -> Any:
+    """Build a graph or a ranging from its bytes.
+
+    Equal arrays are one array: most graphs of the exam differ from another in a single field, and
+    whatever a child touches is copied for it, page by page.
+    """
     if isinstance(data, GraphData):
-        return posegraph.PoseGraph(
+        built = posegraph.PoseGraph(
             n_poses=data.n_poses,
             edges=np.frombuffer(data.edges, "<i8").reshape(-1, 2),
             measurements=np.frombuffer(data.measurements, "<f8"),
@@ -57,26 +65,34 @@ def build_object(data: GraphData | RangingData, posegraph: ModuleType) -> Any:
             prior_means=np.frombuffer(data.prior_means, "<f8"),
             prior_variances=np.frombuffer(data.prior_variances, "<f8"),
         )
-    return posegraph.Ranging(
-        beacon=np.frombuffer(data.beacon, "<f8"),
-        poses=np.frombuffer(data.poses, "<i8"),
-        ranges=np.frombuffer(data.ranges, "<f8"),
-        variances=np.frombuffer(data.variances, "<f8"),
-    )
+    else:
+        built = posegraph.Ranging(
+            beacon=np.frombuffer(data.beacon, "<f8"),
+            poses=np.frombuffer(data.poses, "<i8"),
+            ranges=np.frombuffer(data.ranges, "<f8"),
+            variances=np.frombuffer(data.variances, "<f8"),
+        )
+    for name, value in vars(built).items():
+        if type(value) is np.ndarray:
+            kind = f"{value.dtype} {value.ndim}"
+            object.__setattr__(built, name, shared.setdefault((kind, value.tobytes()), value))
+    return built
 
 
-def prepare(batch: Batch, objects: Sequence[Any], posegraph: ModuleType) -> Plan:
+def prepare(batch: Batch, objects: Sequence[Any], posegraph: ModuleType, shared: Shared | None = None) -> Plan:
     """Make a batch ready to be called."""
-    cases = tuple(_case([_argument(argument, objects, posegraph) for argument in case]) for case in batch.cases)
+    shared = {} if shared is None else shared
+    cases = tuple(_case([_argument(each, objects, posegraph, shared) for each in case]) for case in batch.cases)
     return Plan(batch.function, batch.parts, batch.max_elements, cases)
 
 
-def _argument(argument: Argument, objects: Sequence[Any], posegraph: ModuleType) -> Any:
+def _argument(argument: Argument, objects: Sequence[Any], posegraph: ModuleType, shared: Shared) -> Any:
     if isinstance(argument, int):
         return objects[argument]
     if isinstance(argument, Array):
-        return np.frombuffer(argument.data, "<f8").reshape(argument.shape)
-    return build_object(argument, posegraph)
+        value = np.frombuffer(argument.data, "<f8").reshape(argument.shape)
+        return shared.setdefault((str(argument.shape), argument.data), value)
+    return build_object(argument, posegraph, shared)
 
 
 def _case(arguments: list[Any]) -> _Case:

@@ -54,8 +54,10 @@ def _set_up(setup: Any) -> tuple[Child, Any]:
 
     posegraph = _load_posegraph(setup.posegraph)
     inputs = frames.decode(setup.inputs, frames.Inputs)
-    objects = [batches.build_object(data, posegraph) for data in inputs.objects]
-    plans = [batches.prepare(batch, objects, posegraph) for batch in inputs.batches]
+    shared: batches.Shared = {}
+    objects = [batches.build_object(data, posegraph, shared) for data in inputs.objects]
+    plans = [batches.prepare(batch, objects, posegraph, shared) for batch in inputs.batches]
+    del shared
     import numpy as np  # noqa: PLC0415  # as above
 
     np.random.seed(0)
