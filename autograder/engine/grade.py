@@ -15,6 +15,7 @@ from autograder.engine.corpus import Corpus, draw_corpus
 from autograder.engine.crew import crew, level_of
 from autograder.engine.pool import Answer, Pool
 from autograder.engine.run import Assigned, Progress, Run, Settings
+from autograder.engine.sharing import Shared
 from autograder.engine.store import RunRecord, Store, code_digest, fingerprint, versions
 from autograder.engine.worker import Grade, Graded, Orders, Trouble
 from autograder.intake.submission import Submission
@@ -86,6 +87,7 @@ class _Grading:
         self.stages = tuple(stage for stage in all_stages() if stage.name in course.stages)
         self.points = {name: course.points[name] for name in course.stages}
         self.results: dict[str, Result] = {}
+        self.shared = Shared()
         self.reused = 0
         self.level = self.locks = ""
 
@@ -228,7 +230,7 @@ class _Grading:
         self._keep(result)
 
     def _keep(self, result: Result) -> None:
-        self.results[result.submission] = result
+        self.results[result.submission] = self.shared.result(result)
         self.on_progress(Progress(len(self.results), len(self.submissions), self.reused, result.submission))
 
     def _fingerprint(self, submission: Submission) -> str:
