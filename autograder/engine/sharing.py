@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from msgspec.structs import replace
 
 from autograder.verdicts import CheckVerdict, Result, StageVerdict
@@ -13,7 +11,8 @@ class Shared:
     """Gives back for equal verdicts the same one; what was passed is equal for nearly everybody."""
 
     def __init__(self) -> None:
-        self._known: dict[Any, Any] = {}
+        self._checks: dict[CheckVerdict, CheckVerdict] = {}
+        self._stages: dict[StageVerdict, StageVerdict] = {}
 
     def result(self, result: Result) -> Result:
         """Return a result that equals the given one."""
@@ -24,9 +23,9 @@ class Shared:
         same = replace(stage, checks=checks)
         if any(check.counterexample is not None for check in checks):
             return same  # it holds a dict, and hardly anybody has the same one
-        return self._known.setdefault(same, same)  # type: ignore[no-any-return]
+        return self._stages.setdefault(same, same)
 
     def _check(self, check: CheckVerdict) -> CheckVerdict:
         if check.counterexample is not None:
             return check
-        return self._known.setdefault(check, check)  # type: ignore[no-any-return]
+        return self._checks.setdefault(check, check)
