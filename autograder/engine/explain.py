@@ -17,7 +17,7 @@ from autograder.diagnosis.facts import Answered, facts
 from autograder.diagnosis.probes import Probe, Values, derivative_probe, probes
 from autograder.engine import evidence
 from autograder.engine.collect import Reply, judged
-from autograder.engine.follow import array_of
+from autograder.engine.follow import EARLIER, STAGE, array_of
 from autograder.engine.plan import Plan, Task
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs, Session
@@ -38,6 +38,9 @@ def explain(
 ) -> list[StageVerdict]:
     """Explain all wrong stages of a submission.
 
+    A step of no known mistake is not explained where an earlier function is wrong: its message says
+    already what to mend first, and shows a case of the exam.
+
     Parameters
     ----------
     session : Session
@@ -54,10 +57,17 @@ def explain(
     list of StageVerdict
         The verdicts, in their order; those that want none are as they were.
     """
-    if not any(wants_explanation(verdict) for verdict in verdicts):
+    earlier_is_wrong = any(each.name in EARLIER and each.status != "passed" for each in verdicts)
+    wanted = {
+        each.name
+        for each in verdicts
+        if wants_explanation(each)
+        and not (earlier_is_wrong and each.slip is None and plan.stage(each.name).function == STAGE)
+    }
+    if not wanted:
         return list(verdicts)
     session.afresh()
-    return [_explained(session, plan, each, replies) if wants_explanation(each) else each for each in verdicts]
+    return [_explained(session, plan, each, replies) if each.name in wanted else each for each in verdicts]
 
 
 def _explained(session: Session, plan: Plan, verdict: StageVerdict, replies: Mapping[int, Reply]) -> StageVerdict:

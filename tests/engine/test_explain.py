@@ -166,3 +166,11 @@ def test_what_remembers_the_exam_is_asked_in_a_fresh_child(explained):
     )
     _, shown = explained(text, "jacobian")
     assert not in_gallery("graphs", shown)
+
+
+def test_a_step_on_a_wrong_function_is_told_to_mend_that_first(explained):
+    """Where residual forgets a measurement, the second step keeps the case of the exam and says what comes first."""
+    text = submission_text(next(s for s in slips("residual") if s.identifier.startswith("loop_residual_w")), "residual")
+    verdict, shown = explained(text, "second_step")
+    assert verdict.message.startswith("Mend residual first")
+    assert shown["graph"] not in [plain(graph) for _, graph in gallery("loops")]
