@@ -199,12 +199,11 @@ def sparsity_pattern(graph: PoseGraph) -> tuple[np.ndarray, np.ndarray]:
            [1, 1, 1],
            [0, 1, 1]])
     """
+    rows, k = np.arange(graph.n_factors), len(graph.edges)
     J_mask = np.zeros((graph.n_factors, graph.n_poses), dtype=bool)
-    H_mask = np.zeros((graph.n_poses, graph.n_poses), dtype=bool)
-    factors = [*graph.edges.tolist(), *([k] for k in graph.priors.tolist())]
-    for row, touched in enumerate(factors):
-        J_mask[row, touched] = True
-        H_mask[np.ix_(touched, touched)] = True
+    J_mask[rows[:k, None], graph.edges] = True
+    J_mask[rows[k:], graph.priors] = True
+    H_mask = J_mask.T @ J_mask  # of truth values: some factor touches both
     return J_mask, H_mask
 
 
