@@ -92,7 +92,10 @@ def _bundle(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply] | 
         session.restore(before)
         return None
     begins = (0, *bundle.ends[:-1])
-    parts = [sliced(outputs, *span) for span in zip(begins, bundle.ends, strict=True)]
+    parts = [
+        spread(sliced(outputs, begin, end), task.asked)
+        for task, begin, end in zip(bundle.tasks, begins, bundle.ends, strict=True)
+    ]
     rounds = [task.stage.follow_up(task.prepared, part) for task, part in zip(bundle.tasks, parts, strict=True)]
     calls = [call for each in rounds if each is not None for call in each]
     if not calls:
@@ -112,18 +115,20 @@ def _one_by_one(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply
     replies: dict[int, Reply] = {}
     failed: Reply | None = None
     for task in bundle.tasks:
-        replies[task.batch] = failed or judged(session, plan, task, session.run(task.batch))
+        replies[task.batch] = failed or ask(session, plan, task)
         if replies[task.batch].failure is not None:
             failed = replies[task.batch]  # the rest would end the same way
     return replies
 
 
-def judged(session: Session, plan: Plan, task: Task, outputs: Outputs | Failure) -> Reply:
-    """Ask the second round of a check, where it has one, and judge its cases."""
+def ask(session: Session, plan: Plan, task: Task) -> Reply:
+    """Ask one check, and the second round where it has one, and judge its cases."""
+    outputs = session.run(task.batch)
     if isinstance(outputs, Failure):
         return Reply(outputs)
+    outputs = spread(outputs, task.asked)
     calls = task.stage.follow_up(task.prepared, outputs)
-    again = None if calls is None else session.call(plan.batch(task.stage, calls))
+    again = None if calls is None else session.call(plan.second_round([task], calls))
     if isinstance(again, Failure):
         return Reply(outputs, again)
     return _judged(task, outputs, again)
@@ -149,6 +154,25 @@ def sliced(outputs: Outputs, first: int, last: int) -> Outputs:
         data=outputs.data[offsets[0] : offsets[-1]],
         reasons={call - first: words for call, words in outputs.reasons.items() if first <= call < last},
         mutated=outputs.mutated - first if first <= outputs.mutated < last else -1,
+    )
+
+
+def spread(outputs: Outputs, asked: NDArray[np.int64]) -> Outputs:
+    """Give every call its outputs, those too that were answered by another call which asks the same."""
+    if len(asked) == len(outputs.outcome):  # each was asked
+        return outputs
+    parts = len(outputs.shapes) // max(len(outputs.outcome), 1)
+    arrays = (asked[:, None] * parts + np.arange(parts)).ravel()
+    starts, sizes = outputs.offsets[arrays], np.diff(outputs.offsets)[arrays]
+    offsets = np.concatenate([[0], np.cumsum(sizes)])
+    return Outputs(
+        outcome=outputs.outcome[asked],
+        kinds=outputs.kinds[arrays],
+        shapes=[outputs.shapes[number] for number in arrays.tolist()],
+        offsets=offsets,
+        data=outputs.data[np.arange(offsets[-1]) + np.repeat(starts - offsets[:-1], sizes)],
+        reasons={call: outputs.reasons[one] for call, one in enumerate(asked.tolist()) if one in outputs.reasons},
+        mutated=-1 if outputs.mutated < 0 else int(np.argmax(asked == outputs.mutated)),
     )
 
 

@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from autograder.diagnosis.facts import Answered, facts
 from autograder.diagnosis.probes import Probe, Values, derivative_probe, probes
 from autograder.engine import evidence
-from autograder.engine.collect import Reply, judged
+from autograder.engine.collect import Reply, ask
 from autograder.engine.follow import EARLIER, STAGE, array_of
 from autograder.engine.plan import Plan, Task
 from autograder.sandbox.frames import Outcome
@@ -90,7 +90,7 @@ def _first_open(verdict: StageVerdict) -> tuple[int, CheckVerdict]:
 def _shown(session: Session, plan: Plan, stage: Stage) -> tuple[str, dict[str, Any] | None] | None:
     """Ask the gallery; return what is wrong with the simplest case that is, in words and as plain data."""
     task = plan.gallery_of(stage)
-    reply = judged(session, plan, task, session.run(task.batch))
+    reply = ask(session, plan, task)
     if reply.failure is not None or reply.right.all():
         return None
     index = int(np.argmin(reply.right))

@@ -120,7 +120,9 @@ class Judge:
         known = self._recognisers.get(stage.name)
         if known is None:
             calls = [call for task in tasks for case in task.cases for call in stage.calls(case)]
-            known = self._recognisers.setdefault(stage.name, Recogniser(stage, calls))
+            starts = np.cumsum([0, *(len(task.asked) for task in tasks)])
+            same_as = np.concatenate([start + task.same_as for start, task in zip(starts, tasks, strict=False)])
+            known = self._recognisers.setdefault(stage.name, Recogniser(stage, calls, same_as))
         return known.recognise(evidence.joined(outputs))
 
     def _convention(self, collected: Collected) -> Convention | None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -29,13 +30,15 @@ SLACK = 16  # numbers that an answer may hold beyond twice the expected ones bef
 class Task:
     """One check of one stage: its cases, its share of the points, and the batch of calls that it needs.
 
-    `batch` is the number of the batch in the inputs of the sandbox.
+    `batch` is the number of the batch in the inputs of the sandbox. A call that several cases need
+    is made once: `asked` says for each call which one of the batch answers it.
     """
 
     stage: Stage
     rung: Rung
     cases: tuple[Case, ...]
     batch: int
+    asked: NDArray[np.int64]
 
     @property
     def share(self) -> float:
@@ -47,6 +50,12 @@ class Task:
         """For each case the number of its first call in the batch."""
         counts = np.array([len(self.stage.calls(case)) for case in self.cases])
         return np.asarray(np.cumsum(counts) - counts)
+
+    @cached_property
+    def same_as(self) -> NDArray[np.int64]:
+        """For each call the number of the first one that asks the same, mostly its own."""
+        _, firsts = np.unique(self.asked, return_index=True)
+        return np.asarray(firsts[self.asked])
 
     @cached_property
     def order(self) -> NDArray[np.int64]:
@@ -158,8 +167,12 @@ def make_plan(
             for argument in call:
                 if isinstance(argument, PoseGraph | Ranging):
                     objects.setdefault(argument, len(objects))
-        batches.append(_batch(stage, calls, objects))
-        return Task(stage, rung, cases, len(batches) - 1)
+        batch = _batch(stage, calls, objects)
+        first: dict[Any, int] = {}
+        asked = [first.setdefault(_identity(case), len(first)) for case in batch.cases]
+        once = dict(zip(asked, batch.cases, strict=True))
+        batches.append(msgspec.structs.replace(batch, cases=list(once.values())))
+        return Task(stage, rung, cases, len(batches) - 1, np.array(asked))
 
     tasks = [
         task(stage.facet(rung.name), rung, corpus.cases[stage.ladder.name][rung.name])
@@ -214,6 +227,11 @@ def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[Shared, int]) -
         max_elements=2 * largest + SLACK,
         cases=[[_argument(argument, objects) for argument in call] for call in calls],
     )
+
+
+def _identity(case: Sequence[frames.Argument]) -> Any:
+    """Tell calls apart: graphs of the corpus go by number, arrays by shape and bytes."""
+    return tuple((each.shape, each.data) if isinstance(each, frames.Array) else each for each in case)
 
 
 def _argument(argument: Any, objects: Mapping[Shared, int]) -> frames.Argument:

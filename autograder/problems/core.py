@@ -228,6 +228,12 @@ def _real_loop(n_poses: int, edges: list[tuple[int, int]], prior: int, variance:
     return np.array([0.1 * x, 1.0 - 0.1 * x[::-1]]), held
 
 
+def _far_loop() -> Case:
+    """Make a loop with states far out, where a difference quotient with a tiny step drowns in rounding."""
+    _, made = _real(4, [(0, 1), (1, 2), (2, 3), (0, 3)], [0], 0.3)
+    return np.array([180.0 * jitter(4, 0.8), -150.0 * jitter(4, 0.5)]), made
+
+
 WORKED_LOOP: tuple[Case, ...] = ((np.array([_E.dead_reckoning(), _state(1, -2, 3, 0.5, 4)]), _E),)
 FULL_LOOPS: tuple[Case, ...] = (
     (np.array([_state(0, 0), _state(3, -1)]), _TWICE),
@@ -236,6 +242,7 @@ FULL_LOOPS: tuple[Case, ...] = (
     (np.array([_state(0, 0, 0), _state(1, -1, 4)]), _SOFT),
     _real_loop(3, [(0, 1), (1, 2), (0, 2)], 0, 0.02, 0.35),
     _real_loop(4, [(0, 1), (1, 2), (2, 3), (0, 3)], 0, 20.0, 0.85),
+    _far_loop(),
 )
 INNER_LOOPS: tuple[Case, ...] = (
     (np.array([_state(0, 0, 0), _state(3, 1, -2)]), _ELSEWHERE),

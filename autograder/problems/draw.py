@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import warnings
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -15,11 +16,23 @@ from hypothesis.strategies import SearchStrategy
 
 from autograder.problems.cases import Case, key, simplicity
 from autograder.problems.ladders import Ladder
-from autograder.problems.strategies import STRATEGIES
+from autograder.problems.strategies import STRATEGIES, square
 from autograder.problems.tracks import leave_no_tracks
 
 MAX_ROUNDS = 20
 WIDTH = 8  # cases drawn as one example: most of the time of an example does not depend on its size
+
+
+@dataclass(frozen=True)
+class Made:
+    """What is made of a drawn case: so many cases."""
+
+    of: Callable[[Case], list[Case]]
+    count: int
+
+
+ALONE = Made(lambda case: [case], 1)
+SQUARES = Made(square, 4)
 
 
 def draw_ladder(ladder: Ladder, root_seed: int, examples: int) -> dict[str, tuple[Case, ...]]:
@@ -48,15 +61,22 @@ def draw_ladder(ladder: Ladder, root_seed: int, examples: int) -> dict[str, tupl
         drawn: list[Case] = []
         if wanted.get(rung.name):
             name = f"{root_seed}/{ladder.name}/{rung.name}"
-            drawn = draw_distinct(STRATEGIES[ladder.name][rung.name], wanted[rung.name], name, known)
+            made = SQUARES if ladder.name == "loops" else ALONE
+            drawn = draw_distinct(STRATEGIES[ladder.name][rung.name], wanted[rung.name], name, known, made)
         cases[rung.name] = (*rung.core, *drawn)
     return cases
 
 
-def draw_distinct(strategy: SearchStrategy[Case], count: int, name: str, known: Iterable[bytes] = ()) -> list[Case]:
+def draw_distinct(
+    strategy: SearchStrategy[Case],
+    count: int,
+    name: str,
+    known: Iterable[bytes] = (),
+    made: Made = ALONE,
+) -> list[Case]:
     """Draw `count` cases that differ from each other and from the known ones, sorted from simple to rich.
 
-    `name` names the stream: the same name gives the same cases.
+    `name` names the stream: the same name gives the same cases. `made` says what is made of each draw.
     """
     leave_no_tracks()
     found: dict[bytes, Case] = {}
@@ -66,10 +86,13 @@ def draw_distinct(strategy: SearchStrategy[Case], count: int, name: str, known: 
         if missing <= 0:
             break
         number = int.from_bytes(hashlib.sha256(f"{name}/{attempt}".encode()).digest()[:8], "big")
-        for case in _generate(strategy, missing + missing // 8, number):
-            identity = key(case)
-            if identity not in refused and len(found) < count:
-                found.setdefault(identity, case)
+        for drawn in _generate(strategy, (missing + missing // 8) // made.count, number):
+            if len(found) == count:
+                break
+            for case in made.of(drawn)[: count - len(found)]:
+                identity = key(case)
+                if identity not in refused:
+                    found.setdefault(identity, case)
     if len(found) < count:
         raise RuntimeError(f"{name}: only {len(found)} of {count} distinct cases could be drawn")
     return sorted(found.values(), key=simplicity)

@@ -18,7 +18,7 @@ from hypothesis.strategies import DrawFn, SearchStrategy
 from assignment.posegraph import PoseGraph, Ranging
 from autograder.problems.cases import Case
 from autograder.problems.core import jitter
-from autograder.problems.graphs import MAX_CONDITION, information
+from autograder.problems.graphs import MAX_CONDITION, information, loop_edges, nudged
 
 VARIANCES = (0.01, 0.02, 0.04, 0.05, 0.1)
 DECADES = (0.002, 0.01, 0.05, 0.2, 1.0, 5.0, 20.0)
@@ -220,6 +220,19 @@ def loops_in_graphs(draw: DrawFn) -> Case:
     pairs = [pairs[place] for place in draw(_orders(len(pairs)))]
     graph = _measured(draw, n, pairs, VARIANCES, [draw(integers(0, n - 1))])
     return _two_states(draw, n), graph
+
+
+def square(case: Case) -> list[Case]:
+    """Make four loops of one: two of its measurements as they are or 1 m off, and another second state for each.
+
+    Each loop is judged by what the step answers when a measurement is changed, and here that is
+    what it answers to a neighbour: such a call is made once.
+    """
+    (first, second), graph = case
+    one, *_, other = loop_edges(graph)
+    away = np.sign((second - first)[np.argmax(np.abs(second - first))])
+    loops = (graph, nudged(graph, one), nudged(graph, other), nudged(nudged(graph, one), other))
+    return [(np.array([first, second + away * shift]), loop) for shift, loop in enumerate(loops)]
 
 
 def _two_states(draw: DrawFn, n_poses: int) -> np.ndarray:

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
-from autograder.problems.graphs import information, loop_edges, with_measurement
+from autograder.problems.graphs import information, loop_edges, nudged
 from autograder.problems.ladders import LOOPS
 from autograder.stages.base import Answers, Array, Batch, Stage, aligned
 from autograder.stages.wording import number, vector
 from reference_solution import slam1d
-
-NUDGE = 1.0  # how much a measurement on the loop is changed [m]
 
 
 @dataclass(frozen=True)
@@ -59,8 +58,7 @@ class SecondStep(Stage):
     def calls(self, case: Case) -> list[Case]:
         """Return the calls from both states, then one for every measurement on the loop."""
         (one, two), graph = case
-        nudged = [with_measurement(graph, e, graph.measurements[e] + NUDGE) for e in loop_edges(graph)]
-        return [(one, graph), (two, graph), *((one, changed) for changed in nudged)]
+        return [(one, graph), (two, graph), *((one, changed) for changed in _changed(graph))]
 
     def expected(self, x: Array, graph: PoseGraph) -> tuple[Array, ...]:
         """Return dx by the reference; it sizes the replies and plays no part in the verdict."""
@@ -147,15 +145,21 @@ class SecondStep(Stage):
                 f"x + dx(x) depends on the start: {vector(point)} from {vector(one)}, "
                 f"{vector(other)} from {vector(two)}; one minimum was expected."
             )
-        for e, dx in zip(loop_edges(graph), got[2:], strict=False):
+        for e, changed, dx in zip(loop_edges(graph), _changed(graph), got[2:], strict=False):
             if not np.abs(one + dx.ravel() - point).max() > 10.0 * allowed:
                 i, j = graph.edges[e].tolist()
                 return (
                     f"the point x + dx(x) = {vector(point)} does not move when the measurement of edge {i} -> {j}, "
                     f"which lies on a loop, changes from {number(graph.measurements[e])} to "
-                    f"{number(graph.measurements[e] + NUDGE)} m."
+                    f"{number(changed.measurements[e])} m."
                 )
         return "the three properties of a second step do not hold."
+
+
+@lru_cache(maxsize=4096)  # the calls of a case are asked for several times
+def _changed(graph: PoseGraph) -> tuple[PoseGraph, ...]:
+    """Return a graph for every measurement on a loop, in which that one is changed by 1 m."""
+    return tuple(nudged(graph, e) for e in loop_edges(graph))
 
 
 def tolerance(states: Array, graph: PoseGraph) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from autograder.diagnosis.recognise import Given, Recogniser, laid_out, trusted_call
@@ -23,7 +24,7 @@ def confusion(stage: Stage, examples: int, seed: int = 0) -> dict[str, str | Non
     """Return for every slip of a stage the name that its answers are given."""
     rungs = draw_corpus((stage,), seed, examples).cases[stage.ladder.name]
     calls = [call for found in rungs.values() for case in found for call in stage.calls(case)]
-    recogniser = Recogniser(stage, calls)
+    recogniser = Recogniser(stage, calls, np.arange(len(calls)))
     found = {slip.identifier: recogniser.recognise(answers(slip, stage, calls)) for slip in slips(stage.name)}
     return {name: None if slip is None else slip.identifier for name, slip in found.items()}
 
@@ -42,7 +43,7 @@ def test_what_is_right_is_no_slip(stage: Stage) -> None:
     rungs = draw_corpus((stage,), 0, 0).cases[stage.ladder.name]
     calls = [call for found in rungs.values() for case in found for call in stage.calls(case)]
     right = Slip("right", "It is right.", "Nothing to find.", lambda *call: _plain(stage.expected(*call)))
-    found = Recogniser(stage, calls).recognise(answers(right, stage, calls))
+    found = Recogniser(stage, calls, np.arange(len(calls))).recognise(answers(right, stage, calls))
     assert found is None or found.identifier == "information_in_single_precision"
 
 

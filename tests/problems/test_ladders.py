@@ -5,14 +5,16 @@ import re
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from assignment.posegraph import PoseGraph
 from autograder.problems import strategies
 from autograder.problems.cases import key, simplicity
 from autograder.problems.draw import draw_ladder
-from autograder.problems.graphs import loop_edges, well_posed
+from autograder.problems.graphs import loop_edges, nudged, well_posed
 from autograder.problems.ladders import GRAPHS, LOOPS, MATRICES
-from autograder.problems.strategies import STRATEGIES
+from autograder.problems.strategies import STRATEGIES, square
 from reference_solution import slam1d
 
 LADDERS = {ladder.name: ladder for ladder in (GRAPHS, MATRICES, LOOPS)}
@@ -71,6 +73,19 @@ def test_every_loop_case_has_a_loop(drawn):
     for states, graph in (case for found in drawn["loops"].values() for case in found):
         assert loop_edges(graph)
         assert np.abs(states[0] - states[1]).max() >= 1.0
+
+
+@given(st.sampled_from(["single_loops", "loops_in_graphs"]).flatmap(lambda rung: STRATEGIES["loops"][rung]))
+def test_a_square_holds_four_loops_that_differ_in_two_measurements(case):
+    """Its loops share the first state, and a changed measurement leads from one to the next, and back."""
+    loops = square(case)
+    assert len({key(each) for each in loops}) == 4
+    assert all(np.abs(states[0] - states[1]).max() >= 1.0 for states, _ in loops)
+    assert all((states[0] == case[0][0]).all() for states, _ in loops)
+    graphs = [graph for _, graph in loops]
+    for graph in graphs:
+        beside = {nudged(graph, row) for row in loop_edges(graph)}
+        assert len(beside & set(graphs)) == 2
 
 
 def test_the_ladder_of_graphs_is_rich(drawn):
