@@ -120,8 +120,7 @@ class Student:
 
     def normal(self, J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> list[np.ndarray]:
         """Return H and b."""
-        n = J.shape[1]
-        return self.call("normal_equations", [(n, n), (n,)], J, omega, f)
+        return self.call("normal_equations", [2 * J.shape[1:], J.shape[1:]], J, omega, f)
 
     def step(self, x: np.ndarray, graph: Any) -> np.ndarray:
         """Return dx."""
@@ -159,21 +158,20 @@ def _array(name: str, value: Any, shape: tuple[int, ...], verb: str = "returned"
     if array.shape != shape:
         raise Broken(f"{name} {verb} shape {array.shape}, expected {shape}.")
     if not np.isfinite(array).all():
-        raise Broken(f"{name} {verb} numbers that are not finite.")
+        raise Broken(f"{name} {verb} {'nan' if np.isnan(array).any() else 'inf'}, expected finite numbers.")
     return array
 
 
 def number(value: float, digits: int = 6) -> str:
     """Print a number short, and -0. as 0."""
-    if value == 0:
-        return "0"
-    return f"{value:.0f}" if abs(value) < 1e7 and float(value).is_integer() else f"{value:.{digits}g}"
+    return f"{value + 0:.0f}" if abs(value) < 1e7 and float(value).is_integer() else f"{value:.{digits}g}"
 
 
 def vector(values: np.ndarray, digits: int = 6) -> str:
-    """Print numbers in square brackets, rounding noise as 0."""
+    """Print numbers in square brackets; a long vector is cut unless digits count, and rounding noise is 0."""
     noise = 1e-12 * np.abs(values).max(initial=0.0)
-    return "[" + " ".join(number(v if abs(v) > noise else 0, digits) for v in values.ravel().tolist()) + "]"
+    shown = [number(v if abs(v) > noise else 0, digits) for v in values.ravel().tolist()]
+    return "[" + " ".join(shown if len(shown) <= 8 or digits > 6 else [*shown[:4], "...", *shown[-2:]]) + "]"
 
 
 def unlike(got: Any, expected: Any, digits: int = 6) -> str:
@@ -195,8 +193,8 @@ def _same_rows(graph: Any, what: str, got: np.ndarray, expected: np.ndarray, tol
     far = np.abs(got - expected) > tolerance * (1 + np.abs(expected))
     wrong = np.flatnonzero(far.reshape(len(got), -1).any(axis=1))
     if wrong.size:
-        row = int(wrong[0])
-        raise Wrong(f"{factor(graph, row)} of {what}: {unlike(got[row], expected[row])}.")
+        row, unit = int(wrong[0]), " [m]" if what.startswith("f") else ""
+        raise Wrong(f"{factor(graph, row)} of {what}: {unlike(got[row], expected[row])}{unit}.")
 
 
 # --- residual
@@ -214,8 +212,7 @@ def moved_together(s: Student, graph: Any, x: np.ndarray) -> None:
 
 def fits(s: Student, graph: Any, x: np.ndarray) -> None:
     """Where every measurement and every prior agrees with x, f is 0."""
-    tails, heads = x[graph.edges[:, 0]], x[graph.edges[:, 1]]
-    agreed = replace(graph, measurements=heads - tails, prior_means=x[graph.priors])
+    agreed = replace(graph, measurements=x[graph.edges] @ [-1, 1], prior_means=x[graph.priors])
     _same_rows(graph, "f where all agrees", s.residual(x, agreed), np.zeros(graph.n_factors))
 
 
@@ -272,12 +269,11 @@ def half_derivatives(cost: Callable[..., Any], tolerance: float, H: np.ndarray, 
     hessian = [[cost(p + q) - cost(p - q) - cost(q - p) + cost(-p - q) for q in units] for p in units]
     sizes = np.sqrt(np.abs(np.diag(H)) * (1 + abs(cost(0 * b))))
     for name, got, whole, size in (("H", H, np.array(hessian), np.abs(H).max()), ("b", b, gradient, sizes)):
-        half = 0.5 * whole
+        half, kind = 0.5 * whole, "second derivative" if name == "H" else "derivative"
         wrong = np.argwhere(np.abs(got - half) > tolerance * (1 + np.abs(half) + size))
         if len(wrong):
             at = tuple(wrong[0])
             guess = " (the sign?)" if np.allclose(got, -half) else " (a factor 2?)" if np.allclose(got, whole) else ""
-            kind = "second derivative" if name == "H" else "derivative"
             raise Wrong(f"{name}{wrong[0].tolist()}: {unlike(got[at], half[at])}, half the {kind} of the cost{guess}.")
 
 
@@ -361,7 +357,8 @@ def patterns(s: Student, graph: Any, x: np.ndarray) -> None:
         wrong = np.argwhere((got != 0) != (np.abs(full) > 1e-9 * np.abs(full).max()))
         if len(wrong):
             i, j = wrong[0].tolist()
-            raise Wrong(f"{what}[{i}, {j}] is {bool(got[i, j])}, but the entry is {number(full[i, j])}.")
+            state = "is always 0 and is marked" if got[i, j] else "can differ from 0 and is not marked"
+            raise Wrong(f"{what}[{i}, {j}]: this entry {state}.")
 
 
 def ranges(s: Student, graph: Any, x: np.ndarray) -> None:
@@ -431,10 +428,12 @@ def _say(text: str, indent: str = "") -> None:
 
 
 def check(stage: str, namespace: dict[str, Any]) -> None:
-    """Print PASS or FAIL for every check of a stage; stop with a sentence where it is unfinished.
+    """Print PASS or FAIL for every check of a stage in STAGES; `namespace` holds your functions: `globals()`."""
+    if _told(stage, namespace):
+        print("      Mend this before you go on: the cells below build on it.")
 
-    `stage` is a name in STAGES, such as "residual"; `namespace` holds your functions: `globals()`.
-    """
+
+def _told(stage: str, namespace: dict[str, Any]) -> bool:
     timer = threading.Timer(PATIENCE, print, [f"...   {stage} still runs: does every loop end? Interrupt it to see."])
     timer.start()
     try:
@@ -450,13 +449,14 @@ def check(stage: str, namespace: dict[str, Any]) -> None:
     for name in PUBLIC:
         if any(f"graph '{name}'" in wrong for _, wrong in found):
             print(f"      Its factors: import self_check; print(self_check.PUBLIC['{name}'][1])")
+    return any(wrong for _, wrong in found)
 
 
 def check_all(namespace: dict[str, Any]) -> None:
     """Check every stage, say what is open, and end with what cannot be seen here."""
     for stage in STAGES:
         try:
-            check(stage, namespace)
+            _told(stage, namespace)
         except Unfinished as unfinished:
             if stage not in BONUS:
                 _say(f"TODO  {stage}: {unfinished}".replace(f": {stage} is ", ": "))

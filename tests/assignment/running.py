@@ -53,3 +53,8 @@ def text_of(notebook, name):
     cell = next(cell for cell in notebook.cells if cell.id == name)
     parts = [output.get("text") or output.get("data", {}).get("text/plain", "") for output in printed(cell)]
     return "".join(parts)
+
+
+def sentences(printed):
+    """What the self-check printed, each indented line joined to the one that it goes on from."""
+    return printed.replace("\n      ", " ").splitlines()

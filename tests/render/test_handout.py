@@ -8,7 +8,7 @@ import pytest
 from autograder.course import Course
 from autograder.problems.problem import worked_problem
 from autograder.render.facts import solve
-from autograder.render.handout import render_assignment
+from autograder.render.handout import render_assignment, render_folder
 from autograder.render.solution import render_solution
 from autograder.render.stub import reference_source
 from autograder.render.values import ANSWER_POINTS, POINTS
@@ -66,8 +66,8 @@ def test_iterates_and_poses_never_share_notation():
 
 @pytest.mark.parametrize("problem", [worked_problem(), another_problem()], ids=["worked", "another"])
 def test_no_answer_is_handed_out(problem):
-    """No rendered file holds an answer to the problem."""
-    for name, text in render_assignment(problem).items():
+    """No file of a student's folder holds an answer to the problem, the provided ones included."""
+    for name, text in render_folder(problem).items():
         assert not any(answer.search(text) for answer in answers(problem)), name
 
 
