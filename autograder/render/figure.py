@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-__all__ = ["bars", "curves", "pose_graph", "spy"]
+__all__ = ["as_image", "bars", "curves", "in_words", "pose_graph", "spy"]
 
 INK, GROUND, FILL, PALE = "#1b1b1b", "#fdfdfb", "#1f4e8c", "#e3e9f2"
 
@@ -18,6 +18,23 @@ INK, GROUND, FILL, PALE = "#1b1b1b", "#fdfdfb", "#1f4e8c", "#e3e9f2"
 def escape(words: str) -> str:
     """Write words so that they stand in XML as text."""
     return words.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").replace('"', "&quot;")
+
+
+def in_words(picture: str) -> str:
+    """Read title and description out of a picture, for those who cannot see it."""
+    title, description = (picture.partition(f"<{tag}>")[2].partition(f"</{tag}>")[0] for tag in ("title", "desc"))
+    words = f"{title}. {description}"
+    for sign, name in (("<", "&lt;"), (">", "&gt;"), ('"', "&quot;"), ("&", "&amp;")):
+        words = words.replace(name, sign)
+    return words
+
+
+def as_image(picture: str) -> str:
+    """Write a picture as an HTML image with its words as alternative text: what is inside of an image is not read."""
+    address = picture
+    for sign in '%#&<>"\n':
+        address = address.replace(sign, f"%{ord(sign):02X}")
+    return f'<img alt="{escape(in_words(picture))}" src="data:image/svg+xml;charset=utf-8,{address}">'
 
 
 def _svg(width: float, height: float, title: str, description: str, parts: Sequence[str]) -> str:

@@ -32,7 +32,7 @@ def render_assignment(problem: Problem) -> dict[str, str]:
     words = values(problem)
     pictures = _pictures(problem)
     notebooks = {**words, **_carried()}
-    told = {f"{name.removesuffix('.svg')}_text": _title(picture) for name, picture in pictures.items()}
+    told = {f"{name.removesuffix('.svg')}_text": _alternative(picture) for name, picture in pictures.items()}
     return {
         "slam1d.py": stub_module(problem),
         "slam1d.ipynb": render_notebook("slam1d.ipynb.j2", {"slam1d": {"variant": problem.variant}}, **notebooks),
@@ -85,11 +85,8 @@ def _general_pictures() -> dict[str, str]:
     }
 
 
-def _title(picture: str) -> str:
-    """Return title and description of a picture, as alternative text."""
-    title = picture.partition("<title>")[2].partition("</title>")[0]
-    description = picture.partition("<desc>")[2].partition("</desc>")[0]
-    return f"{title}. {description}".replace("[", "(").replace("]", ")")  # brackets would end the text in Markdown
+def _alternative(picture: str) -> str:
+    return figure.in_words(picture).replace("[", "(").replace("]", ")")  # brackets would end the text in Markdown
 
 
 def write_files(files: dict[str, str], folder: Path) -> list[str]:

@@ -2,6 +2,8 @@
 
 import re
 from pathlib import Path
+from urllib.parse import unquote
+from xml.etree import ElementTree
 
 import nbformat
 import pytest
@@ -83,9 +85,9 @@ def test_the_notebook_shows_what_was_gained(finished):
 
 
 def test_the_pictures_are_drawn(finished):
-    """Pose graph, patterns of J and H, residuals and chi-squared are SVG with title and description."""
+    """Pose graph, patterns of J and H, residuals and chi-squared are images with their words beside them."""
     pictures = {
-        cell.id: [output.data["image/svg+xml"] for output in cell.outputs if "image/svg+xml" in output.get("data", {})]
+        cell.id: [output.data for output in cell.outputs if "text/html" in output.get("data", {})]
         for cell in finished[0].cells
         if cell.cell_type == "code"
     }
@@ -95,7 +97,13 @@ def test_the_pictures_are_drawn(finished):
         "spy-h": 1,
         "pictures": 2,
     }
-    assert all("<title>" in text and "<desc>" in text for drawn in pictures.values() for text in drawn)
+    for data in (data for drawn in pictures.values() for data in drawn):
+        image = ElementTree.fromstring(data["text/html"].replace('">', '"/>'))
+        kind, _, picture = unquote(image.get("src")).partition(",")
+        assert kind == "data:image/svg+xml;charset=utf-8"
+        assert ElementTree.fromstring(picture).tag == "{http://www.w3.org/2000/svg}svg"
+        assert image.get("alt") == data["text/plain"]
+        assert len(data["text/plain"]) > 30
 
 
 def test_explore_runs_beside_the_finished_notebook(finished):

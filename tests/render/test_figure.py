@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+from urllib.parse import unquote
 from xml.etree import ElementTree
 
 import pytest
@@ -64,3 +65,13 @@ def test_the_file_can_travel():
     imported += [name.name for node in ast.walk(tree) if isinstance(node, ast.Import) for name in node.names]
     assert sorted(imported) == ["__future__", "collections.abc", "math"]
     assert "'''" not in inspect.getsource(figure)
+
+
+@pytest.mark.parametrize("name", list(PICTURES))
+def test_an_image_carries_picture_and_words(name):
+    """Inside of an HTML image the picture is whole, and its alternative text is its title and description."""
+    image = ElementTree.fromstring(figure.as_image(PICTURES[name]).replace('">', '"/>'))
+    assert unquote(image.get("src")).partition(",")[2] == PICTURES[name]
+    root = ElementTree.fromstring(PICTURES[name])
+    words = f"{root.find(f'{SVG}title').text}. {root.find(f'{SVG}desc').text}"
+    assert image.get("alt") == figure.in_words(PICTURES[name]) == words
