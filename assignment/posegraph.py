@@ -181,7 +181,7 @@ class Ranging:
                      . |
             range  .   | b1
                  .     |
-        -------x_k-----+--------- the line: pose x_k stands at (x_k, 0)
+        -------x_i-----+--------- the line: pose x_i stands at (x_i, 0)
                        b0
 
     Parameters

@@ -26,7 +26,7 @@ def residual(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """Stack what every factor says is wrong with the state x: the vector f.
 
     A between factor from pose i to pose j predicts x_j by the motion model x_i + u_ij, so its row
-    is x_i + u_ij - x_j. A prior factor on pose k with mean p has the row x_k - p.
+    is x_i + u_ij - x_j. A prior factor on pose i with mean mu_i has the row x_i - mu_i.
 
     Parameters
     ----------
@@ -202,7 +202,7 @@ def sparsity_pattern(graph: PoseGraph) -> tuple[np.ndarray, np.ndarray]:
 def range_residual(x: np.ndarray, ranging: Ranging) -> np.ndarray:
     """Compare distances to a beacon beside the line with the measured ranges.
 
-    Pose x_k stands at (x_k, 0) and the beacon at (b0, b1). A row is the distance between them,
+    Pose x_i stands at (x_i, 0) and the beacon at (b0, b1). A row is the distance between them,
     by Pythagoras, minus the measured range.
 
     Parameters

@@ -10,7 +10,7 @@ from autograder.problems.problem import worked_problem
 from autograder.render.facts import solve
 from autograder.render.handout import render_assignment, render_folder
 from autograder.render.solution import render_solution
-from autograder.render.stub import reference_source
+from autograder.render.stub import reference_source, stubs
 from autograder.render.values import ANSWER_POINTS, POINTS
 from tests.render.another import another_problem
 
@@ -62,6 +62,14 @@ def test_iterates_and_poses_never_share_notation():
         text = (TEMPLATES / name).read_text(encoding="utf-8")
         assert re.findall(r"\\mathbf\{? ?x\}?_", text) == []
         assert re.findall(r"x\^\d|x\^\{\d|[^\w]x[01]\b(?! >>)", text) == []
+
+
+def test_every_letter_has_one_meaning():
+    """In the handout k and p are numbers of edges and priors: never a pose, a mean or a step."""
+    for name in [name for name in [*NAMES, "explore.ipynb.j2"] if not name.startswith(STAFF)]:
+        text = prose(name)
+        assert re.findall(r"[_^]\{?\(?[kp]\b|pose \$?k\b|mean \$?p\b|\(k, k\)", text) == [], name
+    assert re.findall(r"_[kp]\b|pose k\b|mean p\b", "\n".join(stubs(reference_source()).values())) == []
 
 
 @pytest.mark.parametrize("problem", [worked_problem(), another_problem()], ids=["worked", "another"])
