@@ -13,7 +13,10 @@ from assignment.posegraph import PoseGraph, Ranging
 from autograder.problems.problem import Problem, worked_problem
 from autograder.render.stub import reference_source
 
-__all__ = ["Solution", "range_experiment", "reference", "row_by_hand", "solve", "solve_worked"]
+__all__ = ["BY_HAND", "TWIN", "Solution", "range_experiment", "reference", "row_by_hand", "solve", "solve_worked"]
+
+BY_HAND = 1.0  # where all poses stand in the rows that are worked by hand [m]
+TWIN = Ranging(beacon=np.array([2.0, 1.0]), poses=np.array([3]), ranges=np.array([1.3]), variances=np.array([0.01]))
 
 
 @cache
@@ -84,14 +87,14 @@ def solve_worked() -> Solution:
 
 
 def row_by_hand(graph: PoseGraph, row: int) -> float:
-    """Return one row of f where every pose stands at 1 m: easy to work by hand, and not the start."""
-    return float(reference().residual(np.ones(graph.n_poses), graph)[row])
+    """Return one row of f where every pose stands at BY_HAND: easy to work by hand, and not the start."""
+    return float(reference().residual(np.full(graph.n_poses, BY_HAND), graph)[row])
 
 
 def range_experiment(steps: int = 4) -> tuple[list[float], list[float]]:
     """Return the largest entry of each step of the worked example, without and with a range.
 
-    The beacon stands at (2, 1); the robot at x_3 measures 1.3 m to the beacon, with variance 0.01.
+    The robot at x_3 measures 1.3 m to a beacon at (2, 1), with variance 0.01.
 
     Examples
     --------
@@ -101,9 +104,6 @@ def range_experiment(steps: int = 4) -> tuple[list[float], list[float]]:
     """
     right, problem = reference(), worked_problem()
     graph = problem.graph
-    ranging = Ranging(
-        beacon=np.array([2.0, 1.0]), poses=np.array([3]), ranges=np.array([1.3]), variances=np.array([0.01])
-    )
     sizes: tuple[list[float], list[float]] = ([], [])
     for with_range, found in zip((False, True), sizes, strict=True):
         x = problem.start
@@ -111,9 +111,9 @@ def range_experiment(steps: int = 4) -> tuple[list[float], list[float]]:
             f, J, weights = right.residual(x, graph), right.jacobian(x, graph), right.information_matrix(graph)
             H, b = right.normal_equations(J, weights, f)
             if with_range:
-                J = right.range_jacobian(x, ranging)
+                J = right.range_jacobian(x, TWIN)
                 H_range, b_range = right.normal_equations(
-                    J, np.diag(1.0 / ranging.variances), right.range_residual(x, ranging)
+                    J, np.diag(1.0 / TWIN.variances), right.range_residual(x, TWIN)
                 )
                 H, b = H + H_range, b + b_range
             dx = np.linalg.solve(H, -b)

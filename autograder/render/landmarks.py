@@ -13,13 +13,14 @@ __all__ = ["corridor", "counts", "fill_in", "pairs_of", "patterns"]
 
 
 def corridor() -> PoseGraph:
-    """Build a walk of 100 poses past 20 landmarks, unknowns 100 to 119; each is seen from nearby poses only."""
+    """Build a walk of 100 poses past 20 landmarks (unknowns 100 to 119), seen from nearby only."""
     walk = [(i, i + 1) for i in range(99)]
     seen = [(pose, 100 + k) for pose in range(100) for k in range(20) if abs(pose - (5 * k + 2)) <= 10]
     edges = np.array(walk + seen)
     places = np.append(np.arange(100.0), 5.0 * np.arange(20) + 2)
     measured = places[edges[:, 1]] - places[edges[:, 0]]
-    return PoseGraph(120, edges, measured, np.full(len(edges), 0.01), np.array([0]), np.zeros(1), np.full(1, 0.001))
+    variances = np.full(len(edges), 0.01)
+    return PoseGraph(120, edges, measured, variances, np.array([0]), np.zeros(1), np.full(1, 0.001))
 
 
 def fill_in(pairs: set[frozenset[int]], order: list[int]) -> int:
@@ -74,6 +75,7 @@ def counts() -> dict[str, int]:
         "all_pairs": len(poses) * (len(poses) - 1) // 2,
         "seen": len(graph.edges) - between,
         "possible": len(poses) * len(marks),
+        "about": round(len(graph.edges) - between, -2),
         "fill_landmarks_first": fill_in(pairs, marks + poses),
         "fill_poses_first": fill_in(pairs, poses + marks),
         "fill_along": fill_in(pairs, along),

@@ -163,6 +163,10 @@ def _errata(worked: Solution) -> dict[str, str]:
     J = worked.J[: len(graph.edges)]
     without_prior, _b = reference().normal_equations(J, np.eye(len(J)), worked.f[: len(J)])
     return {
+        "sigma": number(graph.edge_variances[0] ** 0.5),
+        "variance": number(graph.edge_variances[0]),
+        "weight": number(worked.omega[0, 0]),
+        "prior_variance": number(graph.prior_variances[0]),
         "H33": number(worked.H[3, 3]),
         "left": number(abs((printed @ worked.dx + worked.b)[3])),
         "prior_sd": number(graph.prior_variances[0] ** 0.5),

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from importlib import resources
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-__all__ = ["fill"]
+__all__ = ["fill", "source"]
 
 _ENVIRONMENT = Environment(
     loader=PackageLoader("autograder.render"),
@@ -22,6 +23,11 @@ _ENVIRONMENT = Environment(
     lstrip_blocks=True,
     keep_trailing_newline=True,
 )
+
+
+def source(name: str) -> str:
+    """Read the text of the template of this name, as it was written."""
+    return (resources.files("autograder.render") / "templates" / name).read_text(encoding="utf-8")
 
 
 def fill(name: str, **values: Any) -> str:

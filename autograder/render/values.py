@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 from assignment.posegraph import PoseGraph
 from autograder.problems.conclusion import choices
+from autograder.problems.ladders import GRAPHS
 from autograder.problems.problem import Problem
 from autograder.render import landmarks
-from autograder.render.facts import row_by_hand, solve_worked
-from autograder.render.stub import graph_source, start_source
+from autograder.render.facts import BY_HAND, TWIN, row_by_hand, solve_worked
+from autograder.render.stub import CORE, graph_source, start_source
+from autograder.render.template import source
 
 __all__ = ["values"]
 
@@ -33,6 +37,7 @@ POINTS = {
     "gauss_newton_step": 20,
     "second_step": 10,
 }
+WORDS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 ANSWER_POINTS = {"iterates": 3, "conclusion": 2, "written_2": 2, "written_3": 3, "bonus": 5}
 
 
@@ -55,6 +60,16 @@ def values(problem: Problem) -> dict[str, Any]:
         "points": POINTS,
         "answer_points": ANSWER_POINTS,
         "explore_minutes": 60,
+        **_counted(),
+        "certain": 100,
+        "graded": _graded(),
+        "twin": {
+            "pose": int(TWIN.poses[0]),
+            "beacon": "(" + ", ".join(number(place) for place in TWIN.beacon) + ")",
+            "source": "Ranging("
+            + ", ".join(f"np.array({getattr(TWIN, name).tolist()})" for name in TWIN.__dataclass_fields__)
+            + ")",
+        },
         "choices": choices(problem.variant),
         "by_hand": _by_hand(graph),
         "example": {
@@ -72,6 +87,7 @@ def values(problem: Problem) -> dict[str, Any]:
             "rmse1": f"{worked.rmse1:.3f}",
             "cost": number(worked.cost),
             "cost1": number(worked.cost1),
+            "prior_weight": number(worked.omega[-1, -1]),
         },
         "sparsity": _sparsity(graph),
         "row_sums": _row_sums(graph),
@@ -120,11 +136,33 @@ def _by_hand(graph: PoseGraph) -> dict[str, Any]:
         "u_bracket": _bracket(u),
         "f_edge": number(row_by_hand(graph, 0)),
         "prior_row": prior_row,
+        "place": number(BY_HAND),
         "k": int(graph.priors[0]),
         "mean": number(mean),
         "mean_bracket": _bracket(mean),
         "f_prior": number(row_by_hand(graph, prior_row)),
     }
+
+
+@cache
+def _counted() -> dict[str, Any]:
+    """Count what the handout counts in words."""
+    headings = re.findall(r"^## \d+\. .*$", source("explore.ipynb.j2"), re.MULTILINE)
+    states = len(solve_worked().iterates)
+    return {
+        "functions": len(CORE),
+        "functions_word": WORDS[len(CORE)],
+        "steps_word": WORDS[states - 1],
+        "states_word": WORDS[states],
+        "experiments_word": WORDS[sum("bonus" not in heading for heading in headings)],
+    }
+
+
+@cache
+def _graded() -> dict[str, int]:
+    """Find the sizes of the graphs that are judged: the fixed cases hold the smallest and the largest."""
+    sizes = [case[1].n_poses for rung in GRAPHS.rungs for case in rung.core]
+    return {"fewest": min(sizes), "most": max(sizes)}
 
 
 def _sparsity(graph: PoseGraph) -> dict[str, int]:

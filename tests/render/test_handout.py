@@ -1,7 +1,6 @@
 """The handout tells numbers that code worked out, for any problem, and keeps notation apart."""
 
 import re
-from importlib import resources
 
 import pytest
 
@@ -13,10 +12,7 @@ from autograder.render.solution import render_solution
 from autograder.render.stub import reference_source, stubs
 from autograder.render.values import ANSWER_POINTS, POINTS
 from tests.render.another import another_problem
-
-TEMPLATES = resources.files("autograder.render") / "templates"
-NAMES = ["README.md.j2", "slam1d.ipynb.j2", *(f"parts/{p.name}" for p in (TEMPLATES / "parts").iterdir())]
-STAFF = ("parts/solution_", "parts/errata", "parts/provided")
+from tests.render.prose import NAMES, STUDENTS, TEMPLATES, prose
 
 
 def answers(problem):
@@ -25,21 +21,6 @@ def answers(problem):
     for rows in (solution.x1, solution.dx, solution.b, solution.H[0]):
         numbers = [re.escape(f"{round(float(value), 4) + 0.0:g}") for value in rows]
         yield re.compile(r"(?<![\d.])" + r"\.?0*[,;\s&\\]+".join(numbers) + r"\.?0*(?![\d.])")
-
-
-def prose(name):
-    """The words of a template: no code cells, nothing that is filled in."""
-    text = (TEMPLATES / name).read_text(encoding="utf-8")
-    if name.endswith(".ipynb.j2"):
-        cells = re.split(r"^%% ", text, flags=re.MULTILINE)
-        text = "".join(cell for cell in cells if cell.startswith("markdown"))
-    return re.sub(r"<<.*?>>|<%.*?%>", "", text)
-
-
-@pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith(STAFF)])
-def test_no_number_is_typed_in(name):
-    """The prose that students read holds no decimal number of its own: all are filled in."""
-    assert re.findall(r"\d+\.\d+", prose(name)) == []
 
 
 def test_the_points_are_those_of_the_course():
@@ -66,7 +47,7 @@ def test_iterates_and_poses_never_share_notation():
 
 def test_every_letter_has_one_meaning():
     """In the handout k and p are numbers of edges and priors: never a pose, a mean or a step."""
-    for name in [name for name in [*NAMES, "explore.ipynb.j2"] if not name.startswith(STAFF)]:
+    for name in STUDENTS:
         text = prose(name)
         assert re.findall(r"[_^]\{?\(?[kp]\b|pose \$?k\b|mean \$?p\b|\(k, k\)", text) == [], name
     assert re.findall(r"_[kp]\b|pose k\b|mean p\b", "\n".join(stubs(reference_source()).values())) == []
