@@ -29,7 +29,7 @@ diagnosis          -> posegraph, stages, problems, verdicts
 render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, errors
 marking            -> course, verdicts, writing, errors
-reports            -> verdicts, marking, render.figure, errors
+reports            -> verdicts, marking, render.figure, render.formula, errors
 exports            -> render, stages, problems, posegraph, reports, verdicts, writing, errors
 desk               -> reports, marking, course, verdicts, errors
 audit              -> errors, verdicts, course, assignment, reference_solution, sandbox.frames, intake, engine,
@@ -210,7 +210,7 @@ def test_a_broken_arrow_is_seen(tmp_path: Path, room: str, text: str) -> None:
         (
             "autograder.reports.html",
             "import autograder.render.stub",
-            "reports may import errors, marking, render.figure, verdicts",
+            "reports may import errors, marking, render.figure, render.formula, verdicts",
         ),
         ("autograder.__init__", "import autograder.errors", "autograder/__init__.py may import nothing of ours"),
         ("autograder.attic.old", "", "There is a room `attic`, which the table does not know"),

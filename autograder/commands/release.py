@@ -97,8 +97,8 @@ def command(
 
 
 def worked_solution(problem: Problem) -> dict[str, str]:
-    """Render what staff mark with: the page with model answers, and the notebook, which is not executed."""
+    """Render what staff mark with: the page with model answers, also to print, and the notebook, not executed."""
     from autograder.render.solution import render_solution
 
     rendered = render_solution(problem)
-    return {".md": rendered["SOLUTION.md"], ".ipynb": rendered["slam1d.ipynb"]}
+    return {".md": rendered["SOLUTION.md"], ".html": rendered["SOLUTION.html"], ".ipynb": rendered["slam1d.ipynb"]}

@@ -12,6 +12,7 @@ from typing import Any
 from autograder.problems.problem import Problem
 from autograder.render import figure, landmarks
 from autograder.render.notebook import render_notebook
+from autograder.render.page import printable
 from autograder.render.stub import reference_source, stub_module, stubs
 from autograder.render.template import fill
 from autograder.render.values import values
@@ -33,11 +34,13 @@ def render_assignment(problem: Problem) -> dict[str, str]:
     pictures = _pictures(problem)
     notebooks = {**words, **_carried()}
     told = {f"{name.removesuffix('.svg')}_text": _alternative(picture) for name, picture in pictures.items()}
+    handout = fill("README.md.j2", **words, **told)
     return {
         "slam1d.py": stub_module(problem),
         "slam1d.ipynb": render_notebook("slam1d.ipynb.j2", {"slam1d": {"variant": problem.variant}}, **notebooks),
         "explore.ipynb": render_notebook("explore.ipynb.j2", **notebooks),
-        "README.md": fill("README.md.j2", **words, **told),
+        "README.md": handout,
+        "handout.html": printable(handout, pictures),
         **pictures,
     }
 

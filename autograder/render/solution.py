@@ -19,6 +19,7 @@ from autograder.problems.problem import Problem
 from autograder.render.facts import Solution, reference, solve, solve_worked
 from autograder.render.handout import PROVIDED, provided, write_files
 from autograder.render.notebook import render_notebook
+from autograder.render.page import printable
 from autograder.render.stub import reference_source
 from autograder.render.template import fill
 from autograder.render.values import number, values
@@ -53,7 +54,7 @@ def render_solution(problem: Problem) -> dict[str, str]:
     Returns
     -------
     dict
-        File name -> text: the notebook, not yet executed, and the page.
+        File name -> text: the notebook, not yet executed, and the page, also as HTML to print.
 
     Raises
     ------
@@ -66,9 +67,11 @@ def render_solution(problem: Problem) -> dict[str, str]:
         "functions": _functions(),
         "shown": SHOWN,
     }
+    page = fill("solution.md.j2", **filled)
     return {
         "slam1d.ipynb": render_notebook("solution.ipynb.j2", **filled),
-        "SOLUTION.md": fill("solution.md.j2", **filled),
+        "SOLUTION.md": page,
+        "SOLUTION.html": printable(page),
     }
 
 

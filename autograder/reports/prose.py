@@ -16,7 +16,7 @@ from markdown_it.rules_inline import StateInline
 from markdown_it.token import Token
 from markupsafe import Markup, escape
 
-from autograder.reports.formula import mathml
+from autograder.render.formula import mathml
 from autograder.reports.wording import visible
 
 LONGEST = 20_000  # characters that are shown of one answer

@@ -52,7 +52,15 @@ def test_a_student_gets_a_whole_folder_and_a_zip(release: Callable[..., Ended], 
         folder = tmp_path / "release" / "students" / variant.student_id
         files = {path.name: path.read_text(encoding="utf-8") for path in folder.iterdir()}
         assert files == render_folder(variant.problem)
-        assert {"README.md", "slam1d.ipynb", "explore.ipynb", "slam1d.py", "posegraph.py", "self_check.py"} < set(files)
+        assert {
+            "README.md",
+            "handout.html",
+            "slam1d.ipynb",
+            "explore.ipynb",
+            "slam1d.py",
+            "posegraph.py",
+            "self_check.py",
+        } < set(files)
         assert str(variant.graph.measurements.tolist()) in files["slam1d.py"]
         assert json.loads(files["slam1d.ipynb"])["metadata"]["slam1d"] == {"variant": variant.identifier}
         with zipfile.ZipFile(tmp_path / "release" / "zips" / f"{variant.student_id}.zip") as archive:
@@ -75,6 +83,7 @@ def test_staff_get_what_they_mark_with(release: Callable[..., Ended], tmp_path: 
     for variant in ledger_of(tmp_path / "release"):
         assert (staff / "solutions" / f"{variant.student_id}.md").read_text("utf-8") == hand_solution(variant)
         assert variant.identifier in (staff / "worked" / f"{variant.student_id}.md").read_text("utf-8")
+        assert variant.identifier in (staff / "worked" / f"{variant.student_id}.html").read_text("utf-8")
         assert json.loads((staff / "worked" / f"{variant.student_id}.ipynb").read_text("utf-8"))["nbformat"] == 4
     assert (staff / "mistakes.txt").read_text().startswith("Family A shows ")
     assert SECRET not in "".join(path.read_text("utf-8") for path in staff.rglob("*") if path.is_file())

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from markupsafe import escape
 
-from autograder.reports.formula import mathml
+from autograder.render.formula import mathml
 from autograder.reports.prose import LONGEST, prose
 from autograder.reports.written import default_guide, written_page
 from tests.marking.written import EVIL
@@ -19,7 +19,9 @@ from tests.marking.written import EVIL
 PICTURE = "data:image/png;base64,iVBORw0KGgo="
 TEXT = {"p", "em", "strong", "code", "pre", "ul", "ol", "li", "blockquote", "br", "hr", "img", "span"}
 TABLE = {"table", "thead", "tbody", "tr", "th", "td"}
+UPRIGHT = '<mi mathvariant="normal">%s</mi>'
 MATHS = {"math", "mrow", "mi", "mn", "mo", "msub", "msup", "msubsup", "mfrac", "msqrt", "mover"}
+MATHS |= {"mtext", "munder", "munderover", "mspace", "mtable", "mtr", "mtd"}
 ALLOWED = TEXT | TABLE | MATHS
 
 
@@ -83,11 +85,20 @@ def test_no_answer_takes_long(piece: str) -> None:
 @pytest.mark.parametrize(
     ("formula", "shown"),
     [
-        (r"H\Delta\mathbf x", '<mrow><mi>H</mi><mi>Δ</mi><mrow class="bold"><mi>x</mi></mrow></mrow>'),
+        (r"H\Delta\mathbf x", f'<mrow><mi>H</mi>{UPRIGHT % "Δ"}<mrow class="bold">{UPRIGHT % "x"}</mrow></mrow>'),
         (r"x_i^{2}", "<msubsup><mi>x</mi><mi>i</mi><mn>2</mn></msubsup>"),
         (r"\frac{1}{\sqrt{n}}", "<mfrac><mn>1</mn><msqrt><mi>n</mi></msqrt></mfrac>"),
         ("a<b", "<mrow><mi>a</mi><mo>&lt;</mo><mi>b</mi></mrow>"),
-        (r"10^{-16} \approx 0", "<mo>≈</mo>"),
+        (r"10^{-16} \approx 0", "<msup><mn>10</mn><mrow><mo>−</mo><mn>16</mn></mrow></msup><mo>≈</mo>"),
+        ("a = -b", '<mo>=</mo><mo form="prefix">−</mo><mi>b</mi>'),
+        ("a - b", "<mi>a</mi><mo>−</mo><mi>b</mi>"),
+        (r"x \text{ if so}", "<mi>x</mi><mtext> if so</mtext>"),
+        (r"\sum_i x", "<munder><mo>∑</mo><mi>i</mi></munder><mi>x</mi>"),
+        (r"\operatorname*{argmin}_x", "<munder><mo>argmin</mo><mi>x</mi></munder>"),
+        (
+            r"\begin{pmatrix} 1 & -2 \cr 0 & x \end{pmatrix}",
+            '<mtr><mtd><mn>1</mn></mtd><mtd><mo form="prefix">−</mo><mn>2</mn></mtd></mtr><mtr><mtd><mn>0</mn></mtd>',
+        ),
     ],
 )
 def test_a_formula_becomes_mathml(formula: str, shown: str) -> None:
@@ -96,7 +107,22 @@ def test_a_formula_becomes_mathml(formula: str, shown: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "formula", [r"\begin{matrix}", "a^", "x^2^3", "}", "{", r"\input{f}", "{" * 99, "x" * 999, "a & b"]
+    "formula",
+    [
+        r"\begin{matrix}",
+        r"\begin{pmatrix} 1",
+        r"\begin{pmatrix}" * 20,
+        r"\begin{align} 1 \end{align}",
+        r"\text {a}",
+        "a^",
+        "x^2^3",
+        "}",
+        "{",
+        r"\input{f}",
+        "{" * 99,
+        "x" * 999,
+        "a & b",
+    ],
 )
 def test_a_formula_that_is_not_understood_stays_as_it_was_typed(formula: str) -> None:
     """Rather than half of it."""
