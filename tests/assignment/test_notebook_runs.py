@@ -77,6 +77,28 @@ def test_a_loop_without_end_is_told_in_the_notebook(notebooks, tmp_path):
     assert text_of(ran, "slow").startswith("...   residual still runs")
 
 
+def test_the_graph_is_told_in_words(finished):
+    """Before the first stub, each factor is a line: which poses, what was measured, how surely."""
+    lines = text_of(finished[0], "walk").splitlines()[:6]
+    assert lines[4] == "row 4: loop 0 -> 4, measured 0.00 m, variance 0.01 m^2"
+    assert lines[5] == "row 5: prior on pose 0, mean 0.00 m, variance 0.001 m^2"
+    assert [line.split()[2] for line in lines[:4]] == ["odometry"] * 4
+
+
+def test_the_prediction_can_be_tried(finished):
+    """Equal variances meet half way; a loop that is 100 times surer takes all but one part in 101."""
+    lines = text_of(finished[0], "try-prediction").splitlines()
+    assert lines[0] == "pose 4: odometry puts it at 0.500 m, the loop at 0.000 m"
+    found = [float(line.split()[-2]) for line in lines[1:]]
+    assert found == pytest.approx([0.5 / 2, 0.5 / 101], abs=0.0025)  # half the grid that the cell looks at
+
+
+def test_the_start_does_not_matter(finished):
+    """From dead reckoning and from elsewhere the step goes to the same state."""
+    one, other = (line.partition("[")[2] for line in text_of(finished[0], "other-start").splitlines())
+    assert one == other
+
+
 def test_the_notebook_shows_what_was_gained(finished):
     """The table after the step ends with the RMSE that the facts know."""
     solution = solve(worked_problem())

@@ -1,6 +1,9 @@
 """No number of the handout is typed in: whole or decimal, in figures or in words, all come from code."""
 
+import json
 import re
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -92,6 +95,38 @@ def test_every_tenth_pose_closes_a_loop():
         assert 0.08 <= loops / n <= 0.1
         assert np.all(np.linalg.eigvalsh(H) > 0)
         assert b.shape == (n,)
+
+
+class Dense:
+    """What the script asks of scipy, done by numpy: the script runs where scipy is not."""
+
+    def __init__(self, entries, shape):
+        self.full = np.zeros(shape)
+        np.add.at(self.full, entries[1], entries[0])
+
+    def tocsc(self):
+        return self
+
+    def toarray(self):
+        return self.full
+
+
+def test_the_script_of_the_timing_writes_what_the_handout_draws(tmp_path, monkeypatch):
+    """It measures every size, dense and sparse, in the form of the committed figures."""
+    scipy = {
+        "scipy.sparse": SimpleNamespace(coo_matrix=Dense),
+        "scipy.sparse.linalg": SimpleNamespace(spsolve=lambda H, b: np.linalg.solve(H.full, b)),
+    }
+    monkeypatch.setattr(solve_times.importlib, "import_module", scipy.__getitem__)
+    committed = json.loads(Path(solve_times.__file__).with_name("solve_times.json").read_text(encoding="utf-8"))
+    assert [n for n, _seconds in committed["dense"]] == list(solve_times.SIZES)
+    monkeypatch.setattr(solve_times, "SIZES", (30, 60))
+    monkeypatch.setattr(solve_times, "__file__", str(tmp_path / "solve_times.py"))
+    solve_times.main()
+    measured = json.loads((tmp_path / "solve_times.json").read_text(encoding="utf-8"))
+    assert measured.keys() == committed.keys()
+    assert [n for n, _seconds in measured["sparse"]] == [30, 60]
+    assert all(seconds > 0 for curve in measured.values() for _n, seconds in curve)
 
 
 def test_the_choices_count_nothing_that_is_a_fact():
