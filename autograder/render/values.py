@@ -111,11 +111,13 @@ def _bracket(value: float) -> str:
 
 
 def _factors(graph: PoseGraph) -> list[dict[str, Any]]:
-    rows = []
+    rows: list[dict[str, str]] = []
+    met: set[int] = set()
     for (i, j), u, v in zip(
         graph.edges.tolist(), graph.measurements.tolist(), graph.edge_variances.tolist(), strict=True
     ):
-        kind = "odometry" if abs(i - j) == 1 else "loop"
+        kind = "odometry" if abs(i - j) == 1 else "loop" if {i, j} <= met else "edge"  # to what is seen first
+        met |= {i, j}
         rows.append({"words": f"{kind} {i} → {j}", "value": f"{u:.2f}", "variance": number(v)})
     for k, mean, v in zip(
         graph.priors.tolist(), graph.prior_means.tolist(), graph.prior_variances.tolist(), strict=True

@@ -5,7 +5,10 @@ import re
 import pytest
 
 from autograder.course import Course
+from autograder.problems.families import family
 from autograder.problems.problem import worked_problem
+from autograder.problems.secret import Secret
+from autograder.problems.variants import draw_variant
 from autograder.render.facts import solve
 from autograder.render.handout import render_assignment, render_folder
 from autograder.render.solution import render_solution
@@ -92,3 +95,14 @@ def test_the_whole_is_short_enough():
 def test_no_private_name_of_the_reference_is_public():
     """The reference has no private function whose text a stub would have to hide."""
     assert not re.search(r"^def _", reference_source(), flags=re.MULTILINE)
+
+
+def test_only_what_closes_a_loop_is_called_a_loop():
+    """The first sight of a landmark is an edge; the second one closes a loop."""
+    problem = draw_variant(Secret(b"0123456789abcdef"), "2026S", "s1", family("L")).problem
+    handout = render_assignment(problem)["README.md"]
+    kinds = re.findall(r"^\| \d+ \| (odometry|loop|edge) (\d+) → (\d+) ", handout, re.MULTILINE)
+    assert [(int(i), int(j)) for _kind, i, j in kinds] == [tuple(edge) for edge in problem.graph.edges.tolist()]
+    closing = [int(row) for row, (kind, _i, _j) in enumerate(kinds) if kind == "loop"]
+    assert len(closing) == len(kinds) - problem.graph.n_poses + 1
+    assert {"odometry", "edge", "loop"} == {kind for kind, _i, _j in kinds}
