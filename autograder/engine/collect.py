@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -42,7 +43,7 @@ class Reply:
                 return part
         return None
 
-    @property
+    @cached_property
     def passed(self) -> bool:
         """Whether every case is right."""
         return self.failure is None and bool(self.right.all())

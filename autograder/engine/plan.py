@@ -140,7 +140,7 @@ class Plan:
         """Make the batch of a second round: new states on the graphs of the tasks' own cases, by number."""
         numbers = [number for task in tasks for number in self._graphs_of(task)]
         cases: list[list[frames.Argument]] = [
-            [_array(x), number] for (x, _), number in zip(calls, numbers, strict=True)
+            [frames.Array(x.shape, x.tobytes()), number] for (x, _), number in zip(calls, numbers, strict=True)
         ]
         largest = max(x.size for x, _ in calls)
         return frames.Batch(tasks[0].stage.function, tasks[0].stage.parts, 2 * largest + SLACK, cases)

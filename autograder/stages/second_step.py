@@ -105,8 +105,9 @@ class SecondStep(Stage):
         """
         dx, _ = aligned(prepared.steps, answers)
         points = prepared.states + np.where(np.isfinite(dx), dx, 0.0)
-        starts, ends = prepared.steps.starts[prepared.loop_starts], prepared.steps.ends[prepared.loop_starts]
-        return [(points[a:b].copy(), graph) for a, b, graph in zip(starts, ends, prepared.graphs, strict=True)]
+        starts = prepared.steps.starts[prepared.loop_starts].tolist()
+        ends = prepared.steps.ends[prepared.loop_starts].tolist()
+        return [(points[a:b], graph) for a, b, graph in zip(starts, ends, prepared.graphs, strict=True)]
 
     def judge(self, prepared: Loops, answers: Answers, again: Answers | None = None) -> NDArray[np.bool_]:
         """Hold every loop to the three properties."""
