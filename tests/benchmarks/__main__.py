@@ -1,128 +1,107 @@
-"""Measure the grader beside the floor, in one run: `python -m tests.benchmarks`."""
+"""Measure the grader beside its floor and beside its peers, all in one run: `python -m tests.benchmarks`.
+
+The report and its plots are written into one folder. Machines differ and are noisy: compare the
+ratios of one run, never the seconds of two.
+"""
+
+from __future__ import annotations
 
 import argparse
 import os
-import resource
-import subprocess
+import platform
 import sys
 import tempfile
-import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from statistics import median
 
-import msgspec
 import numpy as np
 
-from autograder.course import Course
-from autograder.engine.collect import collect
-from autograder.engine.corpus import draw_corpus
-from autograder.engine.grade import Settings, grade
-from autograder.engine.judge import Judge
-from autograder.engine.plan import make_plan
-from autograder.sandbox.host import Limits, Sandbox
-from autograder.stages.catalogue import all_stages
-from tests.benchmarks.class_of import REFERENCE, class_of, right_texts
-from tests.benchmarks.floor import Work
-
-EXAM = ("residual", "jacobian", "information_matrix", "normal_equations", "gauss_newton_step", "second_step")
+from tests.benchmarks.growth import HEAD, by_itself, growth, row
+from tests.benchmarks.one_core import one_core
+from tests.benchmarks.peers.measure import costs_table, installed, measure, misbehave, misbehaviour_table
+from tests.benchmarks.plot import bars
 
 
-def one_core(rounds: int, per_round: int, examples: int) -> None:
-    """Grade correct submissions on one core, and run the floor between; print milliseconds and the ratio."""
-    stages = tuple(stage for stage in all_stages() if stage.name in EXAM)
-    plan = make_plan(stages, {stage.name: stage.points for stage in stages}, draw_corpus(stages, 0, examples))
-    calls = sum(len(task.stage.calls(case)) for task in plan.tasks for case in task.cases)
-    again = [len(task.cases) if task.stage.name == "second_step" else 0 for task in plan.tasks]
-    texts = right_texts()
-    os.sched_setaffinity(0, {sorted(os.sched_getaffinity(0))[0]})
-    walls, floor_walls, ours, floor = [], [], [], []
-    judge = Judge(plan)
-    with Sandbox(plan.inputs, Limits()) as sandbox:
-        for number in range(rounds + 1):
-            chosen = [texts[(number * per_round + index) % len(texts)] for index in range(per_round)]
-            began, used = time.perf_counter(), cpu(sandbox.server.pid)
-            for text in chosen:
-                source = class_of(1)[0].source
-                source.cells[:] = [text]
-                with sandbox.open(source) as session:
-                    verdicts = judge.judge(collect(session, plan))
-                assert all(verdict.score == verdict.max_score for verdict in verdicts)
-            wall, busy = time.perf_counter() - began, cpu(sandbox.server.pid) - used
-            lowest, least = floor_seconds(plan.inputs, again, chosen)
-            if number:  # the first round warms up
-                walls.append(wall / per_round)
-                ours.append(busy / per_round)
-                floor_walls.append(lowest / per_round)
-                floor.append(least / per_round)
-    ratios = [mine / least for mine, least in zip(ours, floor, strict=True)]
-    print(f"one core, correct submissions, {len(stages)} stages, {examples} cases a stage, {calls} calls and more")
-    print(f"  milliseconds a submission, medians of {rounds} rounds: processor, wall")
-    print(f"  grader {1e3 * median(ours):9.1f} {1e3 * median(walls):9.1f}")
-    print(f"  floor  {1e3 * median(floor):9.1f} {1e3 * median(floor_walls):9.1f}")
-    print(f"  ratio of processor time: {median(ratios):.2f} (least {min(ratios):.2f}, most {max(ratios):.2f})")
-    os.sched_setaffinity(0, range(os.cpu_count() or 1))
+def core_part(told: argparse.Namespace) -> str:
+    """Correct submissions beside the floor."""
+    return one_core(told.rounds, 20, told.examples)
 
 
-def cpu(server: int) -> float:
-    """Return the processor seconds of this process, of the fork server, and of the children that it has reaped."""
-    fields = Path(f"/proc/{server}/stat").read_text("ascii").rpartition(")")[2].split()
-    ticks = sum(int(field) for field in fields[11:15])
-    return time.process_time() + ticks / os.sysconf("SC_CLK_TCK")
-
-
-def floor_seconds(inputs: bytes, again: list[int], texts: list[str]) -> tuple[float, float]:
-    """Run the floor in a process of its own, on the same core; return the wall and processor seconds of its loop."""
-    work = msgspec.msgpack.encode(Work(inputs, again, texts))
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-    done = subprocess.run(
-        [sys.executable, "-m", "tests.benchmarks.floor"], input=work, capture_output=True, check=True, env=environment
+def class_part(told: argparse.Namespace) -> str:
+    """A class with a few endless loops, once in all styles and once in those of most students."""
+    found = [by_itself(told.size, told.examples, told.loops, styles) for styles in ("all", "plain")]
+    return (
+        f"70 % right, the others slips, crashes and {told.loops} endless loops; {told.examples} cases a stage, every "
+        "mistake explained. First line: right submissions in all styles of the specimens, second line: in seven that "
+        "most students use.\n\n" + "\n".join([HEAD, *map(row, found)]) + "\n"
     )
-    wall, used = done.stdout.split()
-    return float(wall), float(used)
 
 
-def a_class(size: int, examples: int, loops: int) -> None:
-    """Grade a class on all cores from nothing; print rate, time to the first result and peak memory."""
-    submissions = class_of(size, loops=loops)
-    first: list[float] = []
+def growth_part(told: argparse.Namespace) -> str:
+    """Classes of growing size, without endless loops."""
+    sizes = [size for size in (10, 30, 100, 300, 1000, 3000, 10_000) if size <= told.most]
+    table, plot = growth(sizes, told.examples)
+    (told.output / "growth.svg").write_text(plot)
+    return f"{table}\n![Time and memory over the size of a class](growth.svg)\n"
+
+
+def peers_part(told: argparse.Namespace) -> str:
+    """The same submissions through every peer."""
     with tempfile.TemporaryDirectory() as folder:
-        began = time.perf_counter()
-        run = grade(
-            submissions,
-            Course(),
-            Settings(examples=examples),
-            Path(folder),
-            lambda _: first.append(time.perf_counter() - began),
-        )
-        seconds = time.perf_counter() - began
-    right = sum(result.score is not None and result.score >= 90 for result in run.results)
-    own = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    largest = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    print(f"a class of {size} ({right} right, {loops} endless loops), all cores, {examples} cases a stage")
-    print(f"  {seconds:7.1f} s in all, {size / seconds:.1f} submissions a second")
-    print(f"  {first[0]:7.1f} s to the first result")
-    print(f"  {own:7.0f} MB peak memory of the client, {largest:.0f} MB of its largest process")
+        places, versions = installed((told.environments or Path(folder)).absolute())
+        costs = measure(places, told.submissions, told.rounds)
+    (told.output / "peers.svg").write_text(bars({name: median(c.cpu for c in found) for name, found in costs.items()}))
+    return (
+        f"Medians of {told.rounds} rounds of {told.submissions} correct submissions, for one submission. The peers run "
+        "four functions on 200 graphs; this grader and the floor six stages of 200 cases.\n\n"
+        f"{costs_table(costs, versions)}\n![CPU seconds a submission](peers.svg)\n"
+    )
 
 
-def main() -> None:
-    """Read the sizes and measure."""
+def misbehaviours_part(told: argparse.Namespace) -> str:
+    """What each peer gives to submissions that do not do the homework."""
+    with tempfile.TemporaryDirectory() as folder:
+        places, _ = installed((told.environments or Path(folder)).absolute())
+        return "Stages with full marks.\n\n" + misbehaviour_table(misbehave(list(places), places))
+
+
+PARTS: dict[str, tuple[str, Callable[[argparse.Namespace], str]]] = {
+    "core": ("One core, beside the floor", core_part),
+    "class": ("A class", class_part),
+    "peers": ("Beside other graders", peers_part),
+    "misbehaviours": ("What other graders let through", misbehaviours_part),
+    "growth": ("Growth", growth_part),
+}
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Measure the parts that are asked for, and write the report."""
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks", description=__doc__)
-    parser.add_argument("--rounds", type=int, default=7, help="rounds on one core")
-    parser.add_argument("--per-round", type=int, default=20, help="submissions a round")
+    parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)}; without one, all")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--submissions", type=int, default=20, help="that every peer grades a round")
     parser.add_argument("--examples", type=int, default=200, help="cases a stage")
-    parser.add_argument("--class", dest="size", type=int, default=200, help="size of the class")
-    parser.add_argument("--loops", type=int, default=0, help="endless loops in the class")
-    told = parser.parse_args()
-    print(f"python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} processors")
-    one_core(told.rounds, told.per_round, told.examples)
-    a_class(told.size, told.examples, told.loops)
+    parser.add_argument("--class", dest="size", type=int, default=1000, help="size of the class")
+    parser.add_argument("--loops", type=int, default=5, help="endless loops in the class")
+    parser.add_argument("--most", type=int, default=1000, help="the largest class of the growth")
+    parser.add_argument("--environments", type=Path, help="folder that keeps the environments of the peers")
+    parser.add_argument("-o", "--output", type=Path, default=Path("bench"), help="folder for report and plots")
+    told = parser.parse_args(arguments)
+    chosen = told.parts or list(PARTS)
+    for part in chosen:
+        if part not in PARTS:
+            parser.error(f"there is no part {part}; expected some of {', '.join(PARTS)}")
+    told.output.mkdir(parents=True, exist_ok=True)
+    machine = f"Python {platform.python_version()}, numpy {np.__version__}, {os.cpu_count()} processors"
+    sections = [f"# Benchmarks\n\nMeasured in one run: {machine}.\n"]
+    for part in chosen:
+        title, measured = PARTS[part]
+        print(f"--- {title}", file=sys.stderr, flush=True)
+        sections.append(f"## {title}\n\n{measured(told)}")
+        (told.output / "report.md").write_text("\n".join(sections))
+        print(sections[-1], flush=True)
 
 
 if __name__ == "__main__":
-    assert REFERENCE
-    if sys.argv[1:2] == ["--peers"]:
-        from tests.benchmarks.peers.__main__ import main as against_peers
-
-        against_peers(sys.argv[2:])
-    else:
-        main()
+    main()

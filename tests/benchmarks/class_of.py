@@ -2,6 +2,7 @@
 
 import inspect
 import itertools
+from collections.abc import Sequence
 from pathlib import Path
 
 from autograder.intake.submission import Submission
@@ -13,6 +14,15 @@ from reference_solution import slam1d
 REFERENCE = inspect.getsource(slam1d)
 STYLES = Path(__file__).parents[2] / "autograder/specimens/correct"
 SLOW_STYLES = {"style_17_fractions", "style_08_conjugate_gradients"}  # these take many times longer than the others
+PLAIN_STYLES = (
+    "style_01_list_append",
+    "style_02_vectorised",
+    "style_03_inv",
+    "style_04_pinv",
+    "style_05_row_form",
+    "style_09_inverse_of_covariance",
+    "style_16_copy_and_add",
+)
 CRASHES = (
     "\n\ndef residual(x, graph):\n    return x[graph.n_poses]\n",
     "\n\ndef jacobian(x, graph):\n    raise ValueError('shapes do not match')\n",
@@ -27,6 +37,12 @@ def right_texts() -> list[str]:
     return [REFERENCE, *(path.read_text(encoding="utf-8") for path in files)]
 
 
+def plain_texts() -> list[str]:
+    """Return correct submissions as most students write them: a loop or arrays, and inv, pinv or solve."""
+    found = [(STYLES / f"{name}.py").read_text(encoding="utf-8") for name in PLAIN_STYLES]
+    return [REFERENCE, *found]
+
+
 def wrong_texts() -> list[str]:
     """Return submissions with one known mistake each, in turn from all stages."""
     named = [
@@ -37,10 +53,10 @@ def wrong_texts() -> list[str]:
     return [text for row in itertools.zip_longest(*named) for text in row if text is not None]
 
 
-def class_of(size: int, right: float = 0.7, loops: int = 0) -> list[Submission]:
+def class_of(size: int, right: float = 0.7, loops: int = 0, rights: Sequence[str] | None = None) -> list[Submission]:
     """Make a class in which this share is right; the rest are slips, a tenth of it crashes, and a few loops."""
     texts = []
-    rights, wrongs = itertools.cycle(right_texts()), itertools.cycle(wrong_texts())
+    rights, wrongs = itertools.cycle(rights or right_texts()), itertools.cycle(wrong_texts())
     crashes = itertools.cycle(CRASHES)
     n_right = round(right * size)
     for number in range(size):

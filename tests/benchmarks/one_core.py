@@ -62,7 +62,7 @@ def one_core(rounds: int, per_round: int, examples: int) -> str:
         f"medians of {rounds} rounds of {per_round}.\n\n"
         "| on one core | processor [ms a submission] | wall [ms a submission] |\n|---|---|---|\n"
         f"| this grader | {median(ours):.1f} | {median(walls):.1f} |\n"
-        f"| floor: the same calls in a forked child, nothing judged | {median(floor):.1f} | {median(floor_walls):.1f} |\n"
+        f"| floor: the same calls, nothing judged | {median(floor):.1f} | {median(floor_walls):.1f} |\n"
         f"| ratio | {median(ratios):.2f} (least {min(ratios):.2f}, most {max(ratios):.2f}) | "
         f"{median(walls) / median(floor_walls):.2f} |\n"
     )

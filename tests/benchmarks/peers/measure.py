@@ -1,11 +1,9 @@
-"""Grade the same submissions with every peer, in turn: `python -m tests.benchmarks --peers`."""
+"""Grade the same submissions with every peer, in turn: what it costs, and what it lets through."""
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
-import platform
 import re
 import resource
 import signal
@@ -18,12 +16,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-import numpy as np
-
 import autograder
 from tests.benchmarks.class_of import REFERENCE
+from tests.benchmarks.one_core import exam, floor_seconds
 from tests.benchmarks.peers.misbehaviour import CASES
-from tests.benchmarks.peers.plot import bars
 from tests.benchmarks.peers.systems import (
     REQUIREMENTS,
     Job,
@@ -41,6 +37,7 @@ SYSTEMS: dict[str, Callable[[Path, Mapping[str, str], Path], Job]] = {
     "nbgrader": nbgrader,
     "otter-grader": otter,
 }
+OURS, FLOOR = "this grader", "floor"
 FULL = {"4 of 4", "6 of 6"}
 PATIENCE_SECONDS = 60.0  # for one command that meets a misbehaviour
 
@@ -110,31 +107,53 @@ def score(system: str, job: Job, said: str, name: str) -> str:
         return f"no score ({type(error).__name__})"
 
 
-def measure(systems: Sequence[str], places: Mapping[str, Path], count: int, rounds: int) -> dict[str, list[Cost]]:
-    """Grade the same correct submissions with all peers in turn, round by round; cost of one submission each."""
-    found: dict[str, list[Cost]] = {system: [] for system in systems}
-    texts = {f"s{number:02d}": f"# student {number}\n{REFERENCE}" for number in range(count)}
+def measure(places: Mapping[str, Path], count: int, rounds: int) -> dict[str, list[Cost]]:
+    """Grade the same correct submissions with all peers in turn, round by round; cost of one submission each.
+
+    Our own start is paid once a run, not once a submission: it is measured with as many and with
+    eleven times as many, and what the difference costs is what a submission costs.
+    """
+    found: dict[str, list[Cost]] = {}
+    plan, again = exam(200)
     for _ in range(rounds):
-        for system in systems:
-            with tempfile.TemporaryDirectory() as folder:
-                job = SYSTEMS[system](places[system], texts, Path(folder) / "work")
-                reader, writer = os.pipe()
-                if os.fork() == 0:  # a process of its own, so that the peak is of this peer alone
-                    try:
-                        cost, said = run(job)
-                        given = {score(system, job, said, name) for name in texts}
-                        os.write(writer, json.dumps([cost.wall, cost.cpu, cost.peak, sorted(given)]).encode())
-                    finally:
-                        os._exit(0)
-                os.close(writer)
-                with os.fdopen(reader) as pipe:
-                    wall, cpu, peak, given = json.loads(pipe.read())
-                os.wait()
-                if not given or any(each not in FULL for each in given):  # else an error would be measured
-                    raise SystemExit(f"{system} gave correct submissions {given}.")
-                found[system].append(Cost(wall / count, cpu / count, peak))
-                print(f"  {system}: {wall / count:.2f} s", file=sys.stderr, flush=True)
+        wall, cpu, peak = floor_seconds(plan.inputs, again, [REFERENCE] * count)
+        found.setdefault(FLOOR, []).append(Cost(wall / count, cpu / count, peak))
+        few, many = whole(OURS, places[OURS], count), whole(OURS, places[OURS], 11 * count)
+        more = 10 * count
+        each = Cost((many.wall - few.wall) / more, (many.cpu - few.cpu) / more, many.peak)
+        found.setdefault(OURS, []).append(each)
+        found.setdefault(f"{OURS}, {count} with its start", []).append(
+            Cost(few.wall / count, few.cpu / count, few.peak)
+        )
+        for system in places:
+            if system != OURS:
+                cost = whole(system, places[system], count)
+                found.setdefault(system, []).append(Cost(cost.wall / count, cost.cpu / count, cost.peak))
+        for system, costs in found.items():
+            print(f"  {system}: {costs[-1].wall:.3f} s", file=sys.stderr, flush=True)
     return found
+
+
+def whole(system: str, python: Path, count: int) -> Cost:
+    """Let one peer grade so many correct submissions; return what all of it took."""
+    texts = {f"s{number:03d}": f"# student {number}\n{REFERENCE}" for number in range(count)}
+    with tempfile.TemporaryDirectory() as folder:
+        job = SYSTEMS[system](python, texts, Path(folder) / "work")
+        reader, writer = os.pipe()
+        if os.fork() == 0:  # a process of its own, so that the peak is of this peer alone
+            try:
+                cost, said = run(job)
+                given = {score(system, job, said, name) for name in texts}
+                os.write(writer, json.dumps([cost.wall, cost.cpu, cost.peak, sorted(given)]).encode())
+            finally:
+                os._exit(0)
+        os.close(writer)
+        with os.fdopen(reader) as pipe:
+            wall, cpu, peak, given = json.loads(pipe.read())
+        os.wait()
+    if not given or any(each not in FULL for each in given):  # else an error would be measured
+        raise SystemExit(f"{system} gave correct submissions {given}.")
+    return Cost(wall, cpu, peak)
 
 
 def misbehave(systems: Sequence[str], places: Mapping[str, Path]) -> dict[str, dict[str, str]]:
@@ -152,48 +171,31 @@ def misbehave(systems: Sequence[str], places: Mapping[str, Path]) -> dict[str, d
     return table
 
 
-def report(costs: Mapping[str, list[Cost]], versions: Mapping[str, str], table: Mapping[str, Mapping[str, str]]) -> str:
-    """Write both tables in Markdown."""
-    own = median(cost.cpu for cost in costs["this grader"])
-    lines = ["| grader | version | wall [s] | CPU [s] | CPU, ours = 1 | peak [MB] |", "|---|---|---|---|---|---|"]
+def costs_table(costs: Mapping[str, list[Cost]], versions: Mapping[str, str]) -> str:
+    """Write what every peer costs, in Markdown."""
+    own = median(cost.cpu for cost in costs[OURS])
+    lines = [
+        "| grader | version | wall [ms] | CPU [ms] | CPU, ours = 1 | largest process, peak [MB] |",
+        "|---|---|---|---|---|---|",
+    ]
     for system, found in costs.items():
         wall, cpu = median(cost.wall for cost in found), median(cost.cpu for cost in found)
         peak = median(cost.peak for cost in found)
-        lines.append(f"| {system} | {versions[system]} | {wall:.3f} | {cpu:.3f} | {cpu / own:.1f} | {peak:.0f} |")
-    if table:
-        lines += ["", f"| submission | {' | '.join(costs)} |", "|---" * (len(costs) + 1) + "|"]
-        lines += [f"| {title} | {' | '.join(row[system] for system in costs)} |" for title, row in table.items()]
+        version = versions.get(system.partition(",")[0], "")
+        lines.append(f"| {system} | {version} | {1e3 * wall:.0f} | {1e3 * cpu:.0f} | {cpu / own:.1f} | {peak:.0f} |")
     return "\n".join(lines) + "\n"
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Install what is missing, measure, and write the tables and the plot."""
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks --peers", description=__doc__)
-    parser.add_argument("--environments", type=Path, help="folder that keeps the peers' environments")
-    parser.add_argument("--submissions", type=int, default=20)
-    parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--only", choices=tuple(REQUIREMENTS), action="append", help="leave the other peers out")
-    parser.add_argument("--no-misbehaviours", action="store_true")
-    parser.add_argument("-o", "--output", type=Path, default=Path("peers"), help="folder for the table and the plot")
-    told = parser.parse_args(arguments)
-    with tempfile.TemporaryDirectory() as folder:
-        systems = ["this grader", *(told.only or REQUIREMENTS)]
-        kept = (told.environments or Path(folder)).absolute()
-        places = {system: environment(system, kept) for system in systems[1:]} | {"this grader": Path(sys.executable)}
-        versions = {system: version(places[system], system) for system in systems[1:]}
-        versions["this grader"] = autograder.__version__
-        costs = measure(systems, places, told.submissions, told.rounds)
-        table = {} if told.no_misbehaviours else misbehave(systems, places)
-    text = (
-        f"Medians of {told.rounds} rounds of {told.submissions} correct submissions, a submission; "
-        f"Python {platform.python_version()}, numpy {np.__version__}, {os.cpu_count()} processors.\n\n"
-        + report(costs, versions, table)
-    )
-    told.output.mkdir(parents=True, exist_ok=True)
-    (told.output / "peers.md").write_text(text)
-    (told.output / "peers.svg").write_text(bars({name: median(c.cpu for c in found) for name, found in costs.items()}))
-    print(text)
+def misbehaviour_table(table: Mapping[str, Mapping[str, str]]) -> str:
+    """Write what every peer gives to every misbehaviour, in Markdown."""
+    systems = list(next(iter(table.values())))
+    lines = [f"| submission | {' | '.join(systems)} |", "|---" * (len(systems) + 1) + "|"]
+    lines += [f"| {title} | {' | '.join(row[system] for system in systems)} |" for title, row in table.items()]
+    return "\n".join(lines) + "\n"
 
 
-if __name__ == "__main__":
-    main()
+def installed(folder: Path) -> tuple[dict[str, Path], dict[str, str]]:
+    """Install the peers that are missing; return the Python of each, and its version."""
+    places = {OURS: Path(sys.executable)} | {system: environment(system, folder) for system in REQUIREMENTS}
+    versions = {system: version(places[system], system) for system in REQUIREMENTS}
+    return places, {OURS: autograder.__version__, **versions}
