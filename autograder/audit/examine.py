@@ -71,5 +71,5 @@ def examine(
         level = pool.confinement.level
         pool.run([(index, Grade(source)) for index, source in enumerate(sources)], keep)
         for index in sorted(late):  # what ran out of time is run once more, alone on the machine
-            pool.run([(index, Grade(sources[index]))], keep)
+            pool.run([(index, Grade(sources[index], alone=True))], keep)
     return Examined([found[index] for index in range(len(sources))], level)

@@ -14,6 +14,8 @@ from autograder.engine.plan import Bundle, Plan, Task
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Failure, Loaded, Outputs, Session
 
+LATE = {"timeout", "budget"}  # reasons of a failure that another run, alone on the machine, may not have
+
 
 @dataclass(frozen=True)
 class Absent:
@@ -61,37 +63,56 @@ class Collected:
     loaded: Loaded
     replies: dict[int, Reply] = field(default_factory=dict)
     own_systems: dict[str, follow.Systems] | None = None
+    late: bool = False
 
     @property
     def ran_out(self) -> bool:
         """Whether anything ran out of time: such a submission is run once more, alone."""
         failures = [reply.failure for reply in self.replies.values()]
-        late = any(failure is not None and failure.reason in {"timeout", "budget"} for failure in failures)
-        return late or any(note.status == "timeout" for note in self.loaded.notes)
+        late = any(failure is not None and failure.reason in LATE for failure in failures)
+        return self.late or late or any(note.status == "timeout" for note in self.loaded.notes)
 
 
-def collect(session: Session, plan: Plan) -> Collected:
-    """Load the submission and run every check; a stage that hangs or dies costs only itself."""
+def collect(session: Session, plan: Plan, *, together: bool = True, to_the_end: bool = True) -> Collected:
+    """Load the submission and run every check; a stage that hangs or dies costs only itself.
+
+    Parameters
+    ----------
+    session : Session
+        The submission.
+    plan : Plan
+        The exam.
+    together : bool
+        Ask the checks of a function at once, until that fails: then each has the whole time limit for itself.
+    to_the_end : bool
+        Go on after something ran out of time; False leaves the rest to the run that confirms it.
+    """
     collected = Collected(session.load())
-    together = True  # until asking together has failed: then each check has the whole time limit for itself
     for stage, _ in plan.stages:
+        if not to_the_end and collected.ran_out:
+            break
         if stage.name == follow.STAGE:
             collected.own_systems = _own_systems(session, plan, collected)
         for bundle in plan.bundles_of(stage):
-            if bundle.tasks[0].stage.function in collected.loaded.functions:
-                replies = _bundle(session, plan, bundle) if together else None
-                together = replies is not None
-                collected.replies.update(replies or _one_by_one(session, plan, bundle))
+            if bundle.tasks[0].stage.function not in collected.loaded.functions:
+                continue
+            found = _bundle(session, plan, bundle) if together else {}
+            if isinstance(found, Failure):
+                together, collected.late = False, not to_the_end and found.reason in LATE
+                found = {}
+            if not to_the_end and collected.ran_out:
+                return collected
+            collected.replies.update(found or _one_by_one(session, plan, bundle))
     return collected
 
 
-def _bundle(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply] | None:
-    """Ask several checks at once; None where that fails, and then it has not counted."""
+def _bundle(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply] | Failure:
+    """Ask several checks at once; where that fails, it has not counted."""
     before = session.left
     outputs = session.run(bundle.batch)
     if isinstance(outputs, Failure):
         session.restore(before)
-        return None
+        return outputs
     begins = (0, *bundle.ends[:-1])
     parts = [
         spread(sliced(outputs, begin, end), task.asked)
@@ -104,7 +125,7 @@ def _bundle(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply] | 
     again = session.call(plan.second_round(bundle.tasks, calls))
     if isinstance(again, Failure):
         session.restore(before)
-        return None
+        return again
     ends = np.cumsum([len(each or ()) for each in rounds]).tolist()
     seconds = [sliced(again, *span) for span in zip((0, *ends[:-1]), ends, strict=True)]
     return {

@@ -150,12 +150,12 @@ class _Grading:
     def _confirm(self, pool: Pool, late: list[int]) -> None:
         """Run those that ran out of time once more, each alone on the machine; that verdict stands."""
         for index in late:
-            pool.run([(index, self._job(self.submissions[index]))], self._done)
+            pool.run([(index, self._job(self.submissions[index], alone=True))], self._done)
 
-    def _job(self, submission: Submission) -> Grade:
+    def _job(self, submission: Submission, *, alone: bool = False) -> Grade:
         assert submission.source is not None  # a rejected upload has no job
         sheet = self.assigned[submission.id].sheet
-        return Grade(submission.source, sheet, written_answers(submission.markdown))
+        return Grade(submission.source, sheet, written_answers(submission.markdown), alone)
 
     def _done(self, index: int, answer: Answer) -> None:
         self._finish(self._result(self.submissions[index], answer))

@@ -56,15 +56,17 @@ class Orders(msgspec.Struct, frozen=True):
 
 
 class Grade(msgspec.Struct, frozen=True):
-    """Ask to run and judge one submission.
+    """Ask to run, judge and explain one submission.
 
     `sheet` is the variant on record: its identifier, and its graph and iterates as a plain case;
     None stands for the worked example. `markdown_answers` is what a notebook says under the written questions.
+    Once something runs out of time, nothing more is asked, unless the submission runs `alone` to confirm that.
     """
 
     source: Source
     sheet: tuple[str, list[Any]] | None = None
     markdown_answers: dict[str, str] = {}
+    alone: bool = False
 
 
 class Ready(msgspec.Struct, frozen=True, tag=True):
@@ -175,7 +177,9 @@ class Examiner:
         began = time.perf_counter()
         sheet = _sheet(job)
         with self.sandbox.open(job.source) as session:
-            collected = collect(session, self.plan)
+            collected = collect(session, self.plan, together=not job.alone, to_the_end=job.alone)
+            if collected.ran_out and not job.alone:
+                return Graded((), (), ran_out=True, seconds=time.perf_counter() - began, written={}, iterates=None)
             stages = list(self.judge.judge(collected))
             given = collected.loaded.answers
             if answers.NAME in self.plan.points:
