@@ -170,6 +170,9 @@ class _Reader:
             return f"<mover>{self.one() or '<mrow></mrow>'}<mo>{mark}</mo></mover>"
         if name == "underbrace":
             return f"<munder>{self.one() or '<mrow></mrow>'}<mo>⏟</mo></munder>"
+        if name == "underset":
+            below = self.one() or "<mrow></mrow>"
+            return f"<munder>{self.one() or '<mrow></mrow>'}{below}</munder>"
         if name == "mathcal":
             return self.calligraphic()
         raise _UnknownError

@@ -48,6 +48,13 @@ def test_iterates_and_poses_never_share_notation():
         assert re.findall(r"x\^\d|x\^\{\d|[^\w]x[01]\b(?! >>)", text) == []
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_every_formula_shows_on_github(name):
+    r"""GitHub refuses \operatorname; the formulas make do without it, and without macros of their own."""
+    text = (TEMPLATES / name).read_text(encoding="utf-8")
+    assert re.findall(r"\\(?:operatorname|newcommand|def|require)\b", text) == []
+
+
 def test_every_letter_has_one_meaning():
     """In the handout k and p are numbers of edges and priors: never a pose, a mean or a step."""
     for name in STUDENTS:

@@ -94,6 +94,7 @@ def test_no_answer_takes_long(piece: str) -> None:
         ("a - b", "<mi>a</mi><mo>−</mo><mi>b</mi>"),
         (r"x \text{ if so}", "<mi>x</mi><mtext> if so</mtext>"),
         (r"\sum_i x", "<munder><mo>∑</mo><mi>i</mi></munder><mi>x</mi>"),
+        (r"\underset{x}{\mathrm{min}}", '<munder><mrow class="normal"><mrow><mi mathvariant="normal">m</mi>'),
         (r"\operatorname*{argmin}_x", "<munder><mo>argmin</mo><mi>x</mi></munder>"),
         (
             r"\begin{pmatrix} 1 & -2 \cr 0 & x \end{pmatrix}",
