@@ -21,18 +21,12 @@ class Choice(NamedTuple):
 
 
 CHOICES: dict[str, str] = {
-    "reached_truth": "One step reaches the true positions of the robot, so nothing is left that a further step could "
-    "correct.",
-    "few_poses": "The graph has few poses. A graph with hundreds of poses would need more steps before they become "
-    "zero.",
-    "good_start": "Dead reckoning is a good initial estimate. From a bad one, further steps would still be different "
-    "from zero.",
-    "loop_closed": "One step closes the loop: all measurements agree with the new state, so f is zero and the next "
-    "step is too.",
-    "float_noise": "The further steps are small but not exactly zero in the computer, so each of them still improves "
-    "the estimate.",
-    "linear": "The residual is an affine function of the state: J is the same everywhere, so a single step solves the "
-    "problem from any start.",
+    "reached_truth": "The first step reaches the true positions of the robot; nothing is left to correct.",
+    "few_poses": "The graph has few poses; with hundreds of them the further steps would look different.",
+    "good_start": "Dead reckoning is a good initial estimate; from a bad one, the further steps would look different.",
+    "loop_closed": "The first step closes the loop: now all measurements agree with the state, and f is zero.",
+    "float_noise": "The computer rounds: small or not, each further step still improves the estimate.",
+    "linear": "J is the same at every x, so where the first step ends does not depend on where it began.",
 }
 """Identifier -> text; the texts are printed in the handout, the identifiers are not."""
 

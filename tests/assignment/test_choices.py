@@ -1,5 +1,7 @@
 """The choices of question 3: the same six beliefs in an order of its own for each variant."""
 
+import re
+
 from autograder.problems.conclusion import CHOICES, RIGHT, choice_of, choices
 from autograder.render.solution import REMARKS
 
@@ -29,6 +31,19 @@ def test_no_choice_stands_out_by_its_length():
     """The right choice is not the longest by far: all texts have similar lengths."""
     lengths = [len(text) for text in CHOICES.values()]
     assert max(lengths) < 1.5 * min(lengths)
+
+
+def test_the_right_choice_does_not_stand_out():
+    """It is neither the longest nor the shortest, and uses no word of the trade that only it has."""
+    lengths = sorted(len(text) for text in CHOICES.values())
+    assert lengths[0] < len(CHOICES[RIGHT]) < lengths[-1]
+    assert not re.search(r"(?i)affine|linear|quadratic|constant|deriv|jacobian|single", CHOICES[RIGHT])
+
+
+def test_no_choice_tells_what_the_second_step_is():
+    """The choices stand in the handout beside question 2, so they explain what was seen and do not say it."""
+    told = r"(?i)vanish|second|more steps|(?:they|steps?) (?:is|are|be|becomes?) (?:not )?(?:exactly )?(?:zero|0|too)"
+    assert [text for text in CHOICES.values() if re.search(told, text)] == []
 
 
 def test_every_wrong_choice_has_a_remark_for_staff():

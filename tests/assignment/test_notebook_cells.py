@@ -1,6 +1,7 @@
 """The notebooks as they are read: order, equations, questions, widths, and a Python of years ago."""
 
 import ast
+import re
 
 import nbformat
 import pytest
@@ -42,6 +43,14 @@ def test_the_story_comes_before_the_first_stub():
     assert order[0] == "title"
     places = [order.index(name) for name in ("my-problem", "walk", "symbols", "model", "part-1", "stub-residual")]
     assert places == sorted(places)
+
+
+def test_no_cell_before_question_3_answers_it():
+    """What the choices claim is asked before, never told; the last cell does not name what would break it."""
+    cells = cells_of("slam1d.ipynb")
+    told = "\n".join(cell.source for cell in cells.values() if cell.cell_type == "markdown")
+    assert not re.search(r"(?i)not linear|nonlinear|no estimate can|does not reach|shared out|dispute vanish;", told)
+    assert "has the estimate reached the truth? Has the dispute vanished?" in cells["gained"].source
 
 
 def test_the_notebook_ends_with_question_3():
