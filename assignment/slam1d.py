@@ -20,6 +20,7 @@ my_graph = PoseGraph(
     prior_variances=np.array([0.001]),
 )
 my_start = np.array([0.0, 1.1, 2.1, 3.2, 0.5])
+my_start.setflags(write=False)  # x += dx would move it; write x = x + dx
 
 
 def residual(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
@@ -257,6 +258,6 @@ iterates = None
 # Question 3: the letter of the choice that you pick, for example "A".
 conclusion = None
 
-# Questions 2 and 3 in your own words.
+# Questions 2 and 3 in your own words, as texts: written_2 = """I see that ..."""
 written_2 = None
 written_3 = None

@@ -1,11 +1,13 @@
 """The notebooks run in a real kernel, alone in an empty folder: unfinished, finished, and with mistakes."""
 
 import re
+from copy import deepcopy
 from pathlib import Path
 from urllib.parse import unquote
 from xml.etree import ElementTree
 
 import nbformat
+import numpy as np
 import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 
@@ -103,6 +105,66 @@ def test_the_notebook_shows_what_was_gained(finished):
     solution = solve(worked_problem())
     shown = text_of(finished[0], "compare")
     assert f"RMSE: {solution.rmse:.3f} m -> {solution.rmse1:.3f} m" in shown
+
+
+def test_the_size_of_each_step_is_printed(finished):
+    """Four digits of an array hide what a later step is; beside question 2 it stands with its power of ten."""
+    lines = text_of(finished[0], "step-sizes").splitlines()
+    assert [line.partition(":")[0] for line in lines] == ["step 1", "step 2", "step 3"]
+    first, *later = (float(line.split()[-2]) for line in lines)
+    assert first == pytest.approx(np.abs(solve(worked_problem()).dx).max(), rel=0.05)
+    assert max(later) < 1e-12
+    assert all(re.search(r" \d\.\de[-+]\d\d m$", line) for line in lines)
+
+
+def test_the_bonus_functions_can_be_copied_in(notebooks, tmp_path):
+    """Their cells, put at the end of the core notebook as the handout says, run there."""
+    core, explore = notebooks["slam1d.ipynb"], notebooks["explore.ipynb"]
+    bonus = [cell.id for cell in explore.cells if cell.id.startswith("stub-")]
+    assert bonus == ["stub-sparsity-pattern", "stub-range-residual", "stub-range-jacobian"]
+    cells = [cell for cell in core.cells if cell.id in ("provided-files", "imports")]
+    cells += [cell for cell in explore.cells if cell.id in bonus]
+    _ran, stopped = run(new_notebook(cells=cells), {}, tmp_path)
+    assert stopped is None
+
+
+SPOILT = {
+    "None": "def {name}(*given):\n    pass",
+    "shape": "def {name}(*given):\n    return np.zeros((2, 3))",
+    "text": "def {name}(*given):\n    return 'f'",
+}
+
+
+@pytest.mark.parametrize("kind", SPOILT)
+def test_a_wrong_function_leaves_a_sentence_where_its_picture_would_be(notebooks, tmp_path, kind):
+    """After None, a wrong shape or text the cells with the pictures of J and H go on, and say what came."""
+    core = notebooks["slam1d.ipynb"]
+    wanted = ("provided-files", "provided-pictures", "imports", "my-problem", "spy-j", "spy-h")
+    functions = reference_functions()
+    right = [functions[name] for name in ("residual", "information_matrix")]
+    for name in ("jacobian", "normal_equations"):
+        other = "normal_equations" if name == "jacobian" else "jacobian"
+        sources = [*right, functions[other], SPOILT[kind].format(name=name)]
+        cells = [deepcopy(cell) for cell in core.cells if cell.id in wanted]
+        cells.insert(4, new_code_cell("\n\n\n".join(sources), id="functions"))
+        ran, stopped = run(new_notebook(cells=cells), {}, tmp_path)
+        assert stopped is None
+        shown = text_of(ran, "spy-j" if name == "jacobian" else "spy-h")
+        came = {"None": "None", "shape": "shape (2, 3)", "text": "no matrix of numbers"}[kind]
+        if name == "jacobian":
+            assert shown == f"No picture of J yet: got {came}, expected shape (6, 5). The check above says more.\n"
+        else:
+            assert "No picture of H yet: got " in shown
+
+
+def test_the_start_cannot_be_moved_by_accident(finished, tmp_path):
+    """`my_start += dx` raises instead of spoiling x^(0), in the notebook and in the module."""
+    cells = [cell for cell in finished[0].cells if cell.id in ("provided-files", "imports", "my-problem")]
+    for text in ("\n".join(cell.source for cell in cells), render_assignment(worked_problem())["slam1d.py"]):
+        space = {}
+        exec(compile(text, "slam1d", "exec"), space)
+        with pytest.raises(ValueError, match="read-only"):
+            space["my_start"] += 1.0
 
 
 def test_the_pictures_are_drawn(finished):

@@ -49,7 +49,7 @@ def test_the_terminal_says_what_it_checks_and_how_to_go_on(tmp_path):
             "slam1d.py",
             STUB.encode() + b"\n\nprint(residual(my_start, my_graph))\n",
             (),
-            r"slam1d\.py, line 265: NotImplementedError: residual is not finished yet: .*\.",
+            r"slam1d\.py, line 266: NotImplementedError: residual is not finished yet: .*\.",
         ),
         ("slam1d.py", b"exit()\n", (), r"slam1d\.py, line 1: SystemExit: None"),
         ("slam1d.py", STUB.encode(), ("posegraph.py",), r"posegraph\.py must lie beside self_check\.py\."),
