@@ -207,6 +207,35 @@ def test_explore_alone_stops_with_a_sentence(notebooks, tmp_path):
     assert stopped == "provided-load"
     (error,) = next(cell for cell in ran.cells if cell.id == stopped).outputs
     assert error.traceback[0].startswith("Finish the five functions")
+    assert "in Colab" in error.traceback[0]
+
+
+@pytest.mark.parametrize("name", ["slam1d (1).ipynb", "slam1d-mine.ipynb"])
+def test_explore_finds_a_file_that_was_renamed(finished, notebooks, tmp_path, name):
+    """A second download has a number in its name; an unfinished file beside it is passed over."""
+    nbformat.write(notebooks["slam1d.ipynb"], tmp_path / "slam1d.ipynb")
+    nbformat.write(finished[0], tmp_path / name)
+    cells = [cell for cell in notebooks["explore.ipynb"].cells if cell.id in ("provided-files", "provided-load")]
+    ran, stopped = run(new_notebook(cells=cells), {}, tmp_path)
+    assert stopped is None
+    assert text_of(ran, "provided-load") == f"using your functions from {name}\n"
+
+
+def test_the_conditioning_is_best_in_between(finished):
+    """Of the weights that are tried, neither the lightest nor the heaviest prior conditions H best."""
+    lines = text_of(finished[2], "prior-weight-code").splitlines()
+    numbers = [float(line.partition("cond(H) = ")[2].partition(",")[0]) for line in lines]
+    assert min(numbers) not in (numbers[0], numbers[-1])
+    assert len({line.partition("step")[2] for line in lines}) == 1
+
+
+def test_two_poses_share_the_largest_uncertainty(finished):
+    """Before the loop one pose is least certain, after it two are."""
+    before, after = (
+        [float(number) for number in line.partition("[m] [")[2].strip("]").split()]
+        for line in text_of(finished[2], "marginals-code").splitlines()
+    )
+    assert (before.count(max(before)), after.count(max(after))) == (1, 2)
 
 
 def test_every_slip_of_a_stage_fails_in_the_notebook(notebooks, tmp_path):
