@@ -40,6 +40,9 @@ POINTS = {
 WORDS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 ANSWER_POINTS = {"iterates": 3, "conclusion": 2, "written_2": 2, "written_3": 3, "bonus": 5}
 
+FOLLOW_THROUGH = 0.5  # share of a step that is wrong only because of what it calls
+OLDEST_PYTHON = "3.9"  # on which a student's files run
+
 
 def values(problem: Problem) -> dict[str, Any]:
     """Collect everything that a template may name. Nothing of it is an answer about this problem."""
@@ -59,6 +62,9 @@ def values(problem: Problem) -> dict[str, Any]:
         "plan": PLAN,
         "points": POINTS,
         "answer_points": ANSWER_POINTS,
+        "all_points": sum(POINTS.values()) + sum(ANSWER_POINTS.values()) - ANSWER_POINTS["bonus"],
+        "followed": number(FOLLOW_THROUGH * POINTS["gauss_newton_step"]),
+        "oldest_python": OLDEST_PYTHON,
         "explore_minutes": 60,
         **_counted(),
         "certain": 100,
@@ -80,7 +86,7 @@ def values(problem: Problem) -> dict[str, Any]:
         "prior": {
             "variance": number(graph.prior_variances[0]),
             "sigma": number(graph.prior_variances[0] ** 0.5),
-            "ratio": f"{(graph.edge_variances[0] / graph.prior_variances[0]) ** 0.5:.2g}",
+            "compared": _compared(graph.prior_variances[0], graph.edge_variances[0]),
         },
         "worked": {
             "rmse": f"{worked.rmse:.3f}",
@@ -110,6 +116,14 @@ def _bracket(value: float) -> str:
     return f"({number(value)})" if value < 0 else number(value)
 
 
+def _compared(variance: float, other: float) -> str:
+    """Compare two standard deviations in words."""
+    ratio = (other / variance) ** 0.5
+    if round(ratio, 2) == 1:
+        return "the same as"
+    return f"{ratio:.2g} times smaller than" if ratio > 1 else f"{1 / ratio:.2g} times larger than"
+
+
 def _factors(graph: PoseGraph) -> list[dict[str, Any]]:
     rows: list[dict[str, str]] = []
     met: set[int] = set()
@@ -136,6 +150,7 @@ def _by_hand(graph: PoseGraph) -> dict[str, Any]:
         "j": j,
         "u": number(u),
         "u_bracket": _bracket(u),
+        "predicted": number(BY_HAND + u),
         "f_edge": number(row_by_hand(graph, 0)),
         "prior_row": prior_row,
         "place": number(BY_HAND),

@@ -3,6 +3,7 @@
 import ast
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -24,6 +25,13 @@ NUMPY = (
 )
 
 STANDARD = "__future__ collections.abc contextlib dataclasses pathlib sys textwrap threading traceback typing"
+
+
+def test_the_oldest_python_is_the_one_that_is_told():
+    """The handout names the version that is tried here."""
+    told = re.search(r"Python \((\S+) or newer\)", render_folder(worked_problem())["README.md"])
+    assert told is not None
+    assert f"(3, {told[1].partition('.')[2]})" == "(3, 9)"
 
 
 @pytest.mark.parametrize("name", PROVIDED)

@@ -10,6 +10,7 @@ from autograder.problems.families import family
 from autograder.problems.problem import worked_problem
 from autograder.problems.secret import Secret
 from autograder.problems.variants import draw_variant
+from autograder.render import values as values_module
 from autograder.render.facts import solve
 from autograder.render.handout import render_assignment, render_folder
 from autograder.render.solution import render_solution
@@ -17,6 +18,8 @@ from autograder.render.stub import reference_source, stubs
 from autograder.render.values import ANSWER_POINTS, POINTS
 from tests.render.another import another_problem
 from tests.render.prose import NAMES, STUDENTS, TEMPLATES, prose
+
+GRADED = render_assignment(worked_problem())["README.md"].partition("## What is graded")[2].partition("\n## ")[0]
 
 
 def answers(problem):
@@ -39,6 +42,47 @@ def test_the_points_are_those_of_the_course():
     points = Course().points
     assert set(POINTS) <= set(points)
     assert {name: told[name] for name in points} == dict(points)
+    rows = re.findall(r"^\| (.*?) \| (\S+) \| (.*?) \|$", GRADED, re.MULTILINE)
+    earned = [int(row[1]) for row in rows if row[1].isdigit()]
+    assert sum(earned) == 100
+    assert "| **together** | **100** | |" in GRADED
+    assert {row[2] for row in rows if row[0].startswith("your words")} == {"a reader"}
+
+
+def test_what_is_kept_after_an_earlier_mistake_is_the_courses_share():
+    """The handout says how many points a step keeps that is wrong only because of what it calls."""
+    course = Course()
+    kept = course.follow_through * course.points["gauss_newton_step"]
+    assert f"it keeps {kept:g} of its {course.points['gauss_newton_step']:g} points" in GRADED
+
+
+@pytest.mark.parametrize(
+    ("variance", "other", "told"),
+    [(0.001, 0.01, "3.2 times smaller than"), (0.04, 0.01, "2 times larger than"), (0.01, 0.01, "the same as")],
+)
+def test_two_standard_deviations_are_compared_in_words(variance, other, told):
+    """Smaller, larger or the same: a prior need not be the surest of all."""
+    assert values_module._compared(variance, other) == told
+
+
+@pytest.mark.parametrize("problem", [worked_problem(), another_problem()], ids=["worked", "another"])
+def test_the_row_by_hand_says_what_is_predicted(problem):
+    """The sum of place and measurement, the state, and their difference agree."""
+    text = render_assignment(problem)["slam1d.ipynb"]
+    told = re.search(r"= ([-\d.]+)\$ m, and the state says ([-\d.]+) m: [^=]*= [^=]*= ([-\d.]+)\$ m", text)
+    predicted, state, error = (float(number) for number in told.groups())
+    assert predicted == pytest.approx(state + problem.graph.measurements[0])
+    assert error == pytest.approx(predicted - state)
+
+
+def test_the_glossary_explains_words_that_are_used():
+    """In the order of the alphabet; each word occurs somewhere else in what students read."""
+    handout, _, glossary = render_assignment(worked_problem())["README.md"].partition("## Glossary")
+    words = re.findall(r"^\| ([A-Za-z -]+) \|", glossary, re.MULTILINE)[1:]
+    assert len(words) > 12
+    assert words == sorted(words, key=str.lower)
+    read = " ".join([handout, *(prose(name) for name in STUDENTS if name != "README.md.j2")]).lower()
+    assert [word for word in words if word.lower().removesuffix(" of the state") not in read] == []
 
 
 def test_iterates_and_poses_never_share_notation():

@@ -9,7 +9,7 @@ from autograder.problems.ladders import GRAPHS, LOOPS, MATRICES
 from autograder.problems.problem import worked_problem
 from autograder.render.handout import render_assignment
 
-TEXT = render_assignment(worked_problem())["README.md"].partition("## What is graded")[2].partition("\n- ")[0]
+TEXT = render_assignment(worked_problem())["README.md"].partition("## What is graded")[2].partition("\n|")[0]
 
 
 @pytest.fixture(scope="module")
