@@ -114,11 +114,17 @@ def pose_graph(n_poses: int, edges: Sequence[tuple[int, int, float]], priors: Se
     words = [f"edge {i} to {j} measured {u:g} m" for i, j, u in edges]
     words += [f"prior on {pose} with mean {mean:g} m" for pose, mean in priors]
     title = f"Pose graph with {n_poses} poses"
-    return _svg(2 * left + step * (n_poses - 1), top + 92, title, f"Poses in a row. {'; '.join(words)}.", parts)
+    return _svg(
+        2 * left + step * (n_poses - 1),
+        top + 92,
+        title,
+        f"Poses in the order of their numbers, not of place. {'; '.join(words)}.",
+        parts,
+    )
 
 
-def spy(entries: Sequence[Sequence[float]], name: str) -> str:
-    """Draw where a matrix is not 0: one filled square an entry.
+def spy(entries: Sequence[Sequence[float]], name: str, told: str = "") -> str:
+    """Draw where a matrix is not 0: one filled square an entry, with its sign where some are negative.
 
     Parameters
     ----------
@@ -126,6 +132,8 @@ def spy(entries: Sequence[Sequence[float]], name: str) -> str:
         The matrix, as nested lists or an array.
     name : str
         What the matrix is called.
+    told : str
+        A sentence on the pattern, for those who cannot see a picture that is too large to be listed.
 
     Returns
     -------
@@ -133,28 +141,43 @@ def spy(entries: Sequence[Sequence[float]], name: str) -> str:
         The picture as SVG.
     """
     rows, columns = len(entries), len(entries[0])
-    side = max(1.3, min(26.0, 360.0 / max(rows, columns)))
+    side = max(0.9, min(26.0, 360.0 / max(rows, columns)))
     left, top = 34.0, 40.0
     caption = f"{name}: {sum(entry != 0 for row in entries for entry in row)} of {rows * columns} entries"
-    width, height = max(columns * side, 8.0 * len(caption)) + 2 * left, rows * side + top + 20
-    frame = f'width="{_(columns * side)}" height="{_(rows * side)}"'
+    wide = side if side > 8 else max(side, min(8.0, 360.0 / columns))  # a tall matrix has flat entries, not hairs
+    width, height = max(columns * wide, 8.0 * len(caption)) + 2 * left, rows * side + top + 20
+    frame = f'width="{_(columns * wide)}" height="{_(rows * side)}"'
     parts = [f'<rect x="{left:g}" y="{top:g}" {frame} fill="white" stroke="{INK}"/>']
     filled = [(r, c) for r in range(rows) for c in range(columns) if entries[r][c] != 0]
     gap = 2.0 if side > 8 else 0.0
-    inner = _(side - 2 * gap)
-    corners = [f"M{_(left + c * side + gap)} {_(top + r * side + gap)}" for r, c in filled]
-    squares = [f"{corner}h{inner}v{inner}h-{inner}z" for corner in corners]
-    parts.append(f'<path d="{"".join(squares)}" fill="{FILL}"/>')
+    across, down = _(wide - 2 * gap), _(side - 2 * gap)
+    corners = [f"M{_(left + c * wide + gap)} {_(top + r * side + gap)}" for r, c in filled]
+    squares = [f"{corner}h{across}v{down}h-{across}z" for corner in corners]
+    edge = f' stroke="{FILL}"' if side < 2 else ""
+    parts.append(f'<path d="{"".join(squares)}" fill="{FILL}"{edge}/>')
     if side > 14:
         parts += [_text(left + (c + 0.5) * side, top - 6, str(c)) for c in range(columns)]
         parts += [_text(left - 8, top + (r + 0.5) * side + 5, str(r), "end") for r in range(rows)]
     parts.append(_text(left, 18, caption, "start"))
-    listed = "; ".join(f"row {r}: columns {', '.join(str(c) for q, c in filled if q == r)}" for r in range(rows))
+    signed = any(entry < 0 for row in entries for entry in row)
+    signs = {(r, c): "\u2212" if entries[r][c] < 0 else "+" for r, c in filled if signed}
+    if side > 14:
+        places = [(left + (c + 0.5) * side, top + (r + 0.5) * side + 6, sign) for (r, c), sign in signs.items()]
+        parts += [_text(x, y, sign).replace("<text", '<text fill="white" font-weight="bold"') for x, y, sign in places]
+    words = {at: f"{at[1]} ({signs[at]})" if signed else str(at[1]) for at in filled}
+    listed = "; ".join(f"row {r}: columns {', '.join(words[at] for at in filled if at[0] == r)}" for r in range(rows))
     description = f"{rows} rows, {columns} columns." + (f" Not 0 in {listed}." if rows <= 12 else "")
+    description += f" {told}" if told else ""
     return _svg(width, height, caption, description, parts)
 
 
-def bars(title: str, names: Sequence[str], before: Sequence[float], after: Sequence[float]) -> str:
+def bars(
+    title: str,
+    names: Sequence[str],
+    before: Sequence[float],
+    after: Sequence[float],
+    words: tuple[str, str] = ("before", "after"),
+) -> str:
     """Draw two values for each name: before as a hollow bar, after as a filled one, with the numbers.
 
     Parameters
@@ -165,6 +188,8 @@ def bars(title: str, names: Sequence[str], before: Sequence[float], after: Seque
         One a pair of bars.
     before, after : sequence of float
         The values.
+    words : (str, str)
+        What the two are called.
 
     Returns
     -------
@@ -175,11 +200,11 @@ def bars(title: str, names: Sequence[str], before: Sequence[float], after: Seque
     before, after = ([0.0 if abs(v) <= 1e-9 * size else v for v in values] for values in (before, after))
     values = [*before, *after, 0.0]
     low, high = min(values), max(values)
-    scale = 300.0 / (high - low or 1.0)
-    zero, top = 210.0 - low * scale, 62.0
+    scale = 280.0 / (high - low or 1.0)
+    zero, top = 230.0 - low * scale, 62.0
     height = top + 40 * len(names) + 8
     parts = [_text(20, 22, title, "start")]
-    for left, fill, word in ((20, "white", "before"), (110, FILL, "after")):
+    for left, fill, word in ((20, "white", words[0]), (60 + 8 * len(words[0]), FILL, words[1])):
         parts.append(
             f'<rect x="{left}" y="34" width="18" height="11" fill="{fill}" stroke="{FILL}" stroke-width="1.5"/>'
         )
@@ -194,9 +219,10 @@ def bars(title: str, names: Sequence[str], before: Sequence[float], after: Seque
             if width >= 0.05:
                 box = f'x="{_(x)}" y="{_(y + offset)}" width="{_(width)}" height="12"'
                 parts.append(f'<rect {box} fill="{fill}" stroke="{FILL}" stroke-width="1.5"/>')
-            parts.append(_text(max(x + width, zero) + 8, y + offset + 11, f"{value:.4g}", "start"))
-    words = "; ".join(f"{name}: before {one:.4g}, after {two:.4g}" for name, one, two in pairs)
-    return _svg(600, height, title, words + ".", parts)
+            beside, anchor = (x - 8, "end") if value < 0 else (x + width + 8, "start")
+            parts.append(_text(beside, y + offset + 11, f"{value:.4g}", anchor))
+    told = "; ".join(f"{name}: {words[0]} {one:.4g}, {words[1]} {two:.4g}" for name, one, two in pairs)
+    return _svg(600, height, title, told + ".", parts)
 
 
 def curves(
@@ -220,7 +246,9 @@ def curves(
     """
     points = [point for curve in series.values() for point in curve]
     decades = [math.log10(y) for _x, y in points if y > 0]
-    low, high = math.floor(min(decades) + 1e-9) - 1, math.ceil(max(decades) - 1e-9)
+    nothing = min(y for _x, y in points) <= 0
+    low = math.floor(min(decades) + 1e-9) - 1.0 if nothing else min(decades) - 0.15
+    high = math.ceil(max(decades) - 1e-9)
     xs = sorted({x for x, _y in points})
     place = {x: math.log10(x) if log_x else float(x) for x in xs}
     span = place[xs[-1]] - place[xs[0]] or 1.0
@@ -232,11 +260,10 @@ def curves(
         return left + (right - left) * (place[x] - place[xs[0]]) / span, bottom - (bottom - top) * part
 
     parts = [_text(20, 24, title, "start"), _line(f"M{left:g} {top:g} V{bottom:g} H{right:g}")]
-    for decade in range(low, high + 1, max(1, (high - low) // 6)):
+    for decade in range(math.ceil(low), high + 1, max(1, int(high - low) // 6)):
         y = bottom - (bottom - top) * (decade - low) / (high - low)
         parts.append(f'<path d="M{left:g} {_(y)} H{right:g}" stroke="#c9c9c9" stroke-width="0.7"/>')
-        bottom_line = decade == low and min(y for _x, y in points) <= 0
-        parts.append(_text(left - 8, y + 5, "0" if bottom_line else f"1e{decade}", "end"))
+        parts.append(_text(left - 8, y + 5, "0" if nothing and decade == low else f"1e{decade}", "end"))
     parts += [_text(spot(x, 1.0)[0], bottom + 20, f"{x:g}") for x in xs]
     parts.append(_text((left + right) / 2, bottom + 42, across))
     parts.append(f'<text transform="translate(22 {(top + bottom) / 2:g}) rotate(-90)" text-anchor="middle">{up}</text>')

@@ -131,6 +131,8 @@ class _Reader:
             raise _UnknownError
         before = self.tokens[self.at - 2] if self.at > 1 else ""
         form = ' form="prefix"' if token in "+-" and before in _BEFORE_A_SIGN else ""
+        if token in "()[]":
+            form = ' stretchy="false"'  # or it is lowered where an index or a power follows
         return f"<mo{form}>{_SIGNS.get(token) or escape(token)}</mo>"
 
     def command(self, name: str) -> str:

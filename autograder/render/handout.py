@@ -82,8 +82,8 @@ def _general_pictures() -> dict[str, str]:
     J, H = landmarks.patterns(landmarks.corridor())
     times = json.loads(resources.files("reference_solution").joinpath("solve_times.json").read_text(encoding="utf-8"))
     return {
-        "landmarks_J.svg": figure.spy(J, "J with landmarks"),
-        "landmarks_H.svg": figure.spy(H, "H with landmarks"),
+        "landmarks_J.svg": figure.spy(J, "J with landmarks", landmarks.J_IN_WORDS),
+        "landmarks_H.svg": figure.spy(H, "H with landmarks", landmarks.H_IN_WORDS),
         "solve_times.svg": figure.curves("Time to solve H dx = -b", "poses", "time [s]", times, log_x=True),
     }
 

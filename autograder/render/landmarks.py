@@ -9,7 +9,18 @@ import numpy as np
 from assignment.posegraph import PoseGraph
 from autograder.render.facts import reference
 
-__all__ = ["corridor", "counts", "fill_in", "pairs_of", "patterns"]
+__all__ = ["H_IN_WORDS", "J_IN_WORDS", "corridor", "counts", "fill_in", "pairs_of", "patterns"]
+
+J_IN_WORDS = (
+    "The rows of the walk come first: two entries side by side, which move one column to the right from row to row. "
+    "In the rows of the observations below, one entry moves along the poses like a staircase, and the other stands "
+    "in one of the last columns, those of the landmarks. The last row, the prior, has one entry, in the first column."
+)
+H_IN_WORDS = (
+    "A narrow band of three entries runs along the diagonal of the poses. To the right of it and below it, in the "
+    "columns and rows of the landmarks, lies a band from corner to corner: each landmark beside the poses that see it. "
+    "The lower right block, landmark against landmark, is a bare diagonal."
+)
 
 
 def corridor() -> PoseGraph:

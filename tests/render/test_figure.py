@@ -2,12 +2,16 @@
 
 import ast
 import inspect
+import re
 from urllib.parse import unquote
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
-from autograder.render import figure
+from autograder.problems.problem import worked_problem
+from autograder.render import figure, landmarks
+from autograder.render.handout import render_assignment
 
 SVG = "{http://www.w3.org/2000/svg}"
 PICTURES = {
@@ -34,7 +38,7 @@ def test_the_description_tells_what_is_drawn():
     words = {name: ElementTree.fromstring(text).find(f"{SVG}desc").text for name, text in PICTURES.items()}
     assert "edge 2 to 1 measured -1.2 m" in words["pose graph"]
     assert "prior on 2 with mean 4.5 m" in words["pose graph"]
-    assert words["spy"] == "2 rows, 3 columns. Not 0 in row 0: columns 0; row 1: columns 1, 2."
+    assert words["spy"] == "2 rows, 3 columns. Not 0 in row 0: columns 0 (+); row 1: columns 1 (−), 2 (+)."
     assert words["bars"] == "row 0: before -0.5, after 0.1; row 1: before 0, after 0."
     assert "two: 0.4 at 1, 0.007 at 2" in words["curves"]
 
@@ -44,6 +48,67 @@ def test_values_are_told_apart_without_colour():
     assert 'fill="white"' in PICTURES["bars"]
     assert "stroke-dasharray" in PICTURES["curves"]
     assert "stroke-dasharray" not in PICTURES["log curves"]
+
+
+def test_a_turned_matrix_has_another_picture():
+    """Signs stand in the squares of a matrix with negative entries, and in none of a mask."""
+    turned = [texts(figure.spy([[sign, 0], [0, -sign]], "J")) for sign in (1, -1)]
+    assert [[text for text in found if text in ("+", "−")] for found in turned] == [["+", "−"], ["−", "+"]]
+    assert not {"+", "−"} & {*texts(figure.spy([[1, 0], [0, 1]], "J_mask"))}
+    assert figure.spy([[1, 0], [0, 1]], "J_mask").count("columns 0; row 1: columns 1.") == 1
+
+
+def test_a_tall_matrix_has_no_hairs():
+    """With hundreds of rows an entry is wider than it is high; with few it is a square."""
+    for rows, ratio in ((500, 3.0), (6, 1.0)):
+        picture = figure.spy([[int(r % 100 == c) for c in range(100 if rows > 100 else 5)] for r in range(rows)], "J")
+        across, down = re.search(r'd="M[\d.]+ [\d.]+h([\d.]+)v([\d.]+)h', picture).groups()
+        assert float(across) >= ratio * 0.9 * float(down)
+        assert (f'fill="{figure.FILL}" stroke=' in picture) == (rows > 100)
+
+
+def test_the_large_pictures_are_told_in_words():
+    """What the words of the corridor say about J and H is so."""
+    J, H = (np.array(matrix) for matrix in landmarks.patterns(landmarks.corridor()))
+    n = landmarks.counts()["poses"]
+    walk = landmarks.counts()["between"]
+    assert all(np.flatnonzero(J[row]).tolist() == [row, row + 1] for row in range(walk))
+    pose, mark = np.array([np.flatnonzero(row) for row in J[walk:-1]]).T
+    assert np.all(np.diff(pose) >= 0)
+    assert np.all((pose < n) & (mark >= n))
+    assert np.flatnonzero(J[-1]).tolist() == [0]
+    assert np.array_equal(H[:n, :n], np.triu(np.tril(np.ones((n, n)), 1), -1))
+    assert np.array_equal(H[n:, n:], np.eye(len(H) - n))
+    assert H[0, n] == 1
+    assert H[n - 1, -1] == 1
+    files = render_assignment(worked_problem())
+    assert landmarks.J_IN_WORDS in files["landmarks_J.svg"]
+    assert landmarks.H_IN_WORDS in files["README.md"]
+
+
+def test_a_number_stands_on_the_side_of_its_bar():
+    """The number of a negative bar ends left of it, the one of a positive bar begins right of it."""
+    root = ElementTree.fromstring(figure.bars("f", ["a", "b"], [-0.5, 0.25], [-0.1, 0.1], ("start", "after one step")))
+    numbers = {node.text: node for node in root.iter(f"{SVG}text") if re.fullmatch(r"-?0\.\d+", node.text)}
+    axis = float(next(node.get("d") for node in root.iter(f"{SVG}path")).split()[0].lstrip("M"))
+    for text, node in numbers.items():
+        assert node.get("text-anchor") == ("end" if text[0] == "-" else "start")
+        assert (float(node.get("x")) < axis) == (text[0] == "-")
+    assert {"start", "after one step"} <= {node.text for node in root.iter(f"{SVG}text")}
+    assert "a: start -0.5, after one step -0.1" in root.find(f"{SVG}desc").text
+
+
+def test_no_decade_is_empty():
+    """The axis of times begins at the decade of the smallest one; a line for 0 is added only where one is 0."""
+    nearly = figure.curves("Times", "n", "t [s]", {"dense": [(30, 9.8e-6), (3000, 0.3)]}, log_x=True)
+    for picture in (PICTURES["log curves"], nearly):
+        found = [text for text in texts(picture) if text.startswith("1e")]
+        assert found == ["1e-5", "1e-4", "1e-3", "1e-2", "1e-1", "1e0"]
+
+
+def texts(picture):
+    """Everything that is written in a picture, in its order."""
+    return [node.text for node in ElementTree.fromstring(picture).iter(f"{SVG}text")]
 
 
 def test_a_value_of_zero_stands_on_a_line_marked_0():
