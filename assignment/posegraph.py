@@ -1,7 +1,7 @@
 """The problem model: pose graphs on a line, and ranges to a beacon beside it.
 
-This is the only hand-written code that you are given; read it, you will use every field.
-It needs numpy only.
+Of the files that you are given, this is the one to read: your functions use its fields.
+`help(PoseGraph)` prints the same. It needs numpy only.
 """
 
 from dataclasses import dataclass, fields

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from pathlib import Path
 
 import nbformat
 import pytest
@@ -11,6 +12,7 @@ from autograder.render.handout import render_assignment
 from autograder.render.stub import CORE
 from tests.render.another import another_problem
 
+ROOT = Path(__file__).parents[2]
 NAMES = ("slam1d.ipynb", "explore.ipynb")
 NOTEBOOKS = {name: nbformat.reads(render_assignment(worked_problem())[name], as_version=4) for name in NAMES}
 WIDEST = 104  # characters of a line, as in the self-check: a laptop shows no more
@@ -73,6 +75,16 @@ def test_folded_cells_say_what_they_are(name):
     folded = [cell for cell in NOTEBOOKS[name].cells if "tags" in cell.metadata]
     assert len(folded) >= 3
     assert all(cell.source.startswith("# @title Provided: ") for cell in folded)
+
+
+def test_the_provided_code_can_be_left_out_of_a_page():
+    """The tag that staff are told to remove is the one of all folded cells, and of no other."""
+    told = re.search(r"remove_input_tags=(\S+) ", (ROOT / "docs" / "instructor.md").read_text(encoding="utf-8"))
+    assert told is not None
+    for name in NAMES:
+        tagged = {cell.id for cell in NOTEBOOKS[name].cells if told[1] in cell.metadata.get("tags", [])}
+        folded = {c.id for c in NOTEBOOKS[name].cells if c.metadata.get("jupyter", {}).get("source_hidden")}
+        assert tagged == folded != set()
 
 
 @pytest.mark.parametrize("name", NAMES)
