@@ -158,6 +158,27 @@ def test_a_wrong_function_leaves_a_sentence_where_its_picture_would_be(notebooks
             assert "No picture of H yet: got " in shown
 
 
+@pytest.mark.parametrize(
+    ("function", "came"),
+    [
+        ("def sparsity_pattern(graph):\n    pass", "None"),
+        ("def sparsity_pattern(graph):\n    return np.zeros((2, 3)), np.zeros((2, 3))", "shape (2, 3)"),
+    ],
+    ids=["None", "shape"],
+)
+def test_wrong_masks_leave_sentences_too(notebooks, tmp_path, function, came):
+    """In the optional notebook the pictures of J and H are missed in the same words, and the cells go on."""
+    wanted = ("provided-files", "provided-pictures", "count", "corridor-code")
+    cells = [deepcopy(cell) for cell in notebooks["explore.ipynb"].cells if cell.id in wanted]
+    load = f"import numpy as np\nfrom posegraph import PoseGraph\nfrom self_check import WORKED\n\n{function}"
+    cells.insert(2, new_code_cell(load, id="load"))
+    ran, stopped = run(new_notebook(cells=cells), {}, tmp_path)
+    assert stopped is None
+    for name, shapes in (("count", ("(6, 5)", "(5, 5)")), ("corridor-code", ("(498, 120)", "(120, 120)"))):
+        for letter, shape in zip("JH", shapes, strict=True):
+            assert f"No picture of {letter} yet: got {came}, expected shape {shape}." in text_of(ran, name)
+
+
 def test_the_start_cannot_be_moved_by_accident(finished):
     """`my_start += dx` raises instead of spoiling x^(0), in the notebook and in the module."""
     cell = next(cell.source for cell in finished[0].cells if cell.id == "my-problem")
