@@ -4,7 +4,7 @@ FROM python:3.13-slim
 
 WORKDIR /opt/slam1d-homework
 COPY requirements.lock ./
-RUN pip install --no-cache-dir --no-input --require-hashes -r requirements.lock
+RUN pip install --no-cache-dir --no-input --no-deps --require-hashes -r requirements.lock
 
 COPY pyproject.toml README.md LICENSE ./
 COPY assignment assignment

@@ -89,7 +89,7 @@ $(VENV)/ready: requirements.lock pyproject.toml $(ANEW)
 	@echo "--- setting up $(VENV) with $$($(PYTHON) -V) (once; about a minute)"
 	@test -z "$(ANEW)" || test ! -e $(VENV)/made-for || rm -rf $(VENV)
 	@$(PY) -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv $(VENV)
-	@$(PIP) install --require-hashes -r requirements.lock
+	@$(PIP) install --no-deps --require-hashes -r requirements.lock
 	@$(PIP) install --no-deps --no-build-isolation -e .
 	@echo "$(PLACE)" > $(VENV)/made-for
 	@touch $@

@@ -80,6 +80,14 @@ def _python(place: Path, text: str) -> str:
     return f"PYTHON={fake}"
 
 
+def test_nothing_but_the_lock_is_installed() -> None:
+    """Every installation from the lock leaves resolving out: else a newer release outside of the lock stops it."""
+    lines = [line for name in ("Makefile", "Dockerfile") for line in (ROOT / name).read_text("utf-8").splitlines()]
+    installs = [line for line in lines if "-r requirements.lock" in line]
+    assert len(installs) == 2
+    assert all("install " in line and "--no-deps --require-hashes" in line for line in installs)
+
+
 def test_make_alone_explains_itself(place: Path) -> None:
     """It lists every command with what it does, and sets nothing up."""
     run = _make(place)
