@@ -245,7 +245,16 @@ def test_a_worker_computes_in_one_thread(uploads, tmp_path, monkeypatch):
     assert "OMP_NUM_THREADS" not in os.environ
 
 
-SLOW = "\n\n_plain = residual\n\ndef residual(x, graph):\n    for _ in range({}):\n        pass\n    return _plain(x, graph)\n"
+SLOW = """
+
+_plain = residual
+
+
+def residual(x, graph):
+    for _ in range({}):
+        pass
+    return _plain(x, graph)
+"""
 
 
 def test_what_is_slow_but_in_time_check_by_check_keeps_its_marks(tmp_path):
