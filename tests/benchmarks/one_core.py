@@ -6,6 +6,8 @@ import os
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from statistics import median
 
@@ -84,3 +86,13 @@ def floor_seconds(inputs: bytes, again: list[int], texts: list[str]) -> tuple[fl
     )
     wall, used, peak = done.stdout.split()
     return float(wall), float(used), float(peak)
+
+
+def floor_of_a_class(size: int, examples: int, texts: Sequence[str]) -> float:
+    """Run the floor for so many correct submissions on all cores at once; return the seconds that pass."""
+    plan, again = exam(examples)
+    cores = len(os.sched_getaffinity(0))
+    chosen = [texts[number % len(texts)] for number in range(size)]
+    with ThreadPoolExecutor(cores) as pool:
+        found = pool.map(lambda core: floor_seconds(plan.inputs, again, chosen[core::cores]), range(cores))
+        return max(wall for wall, _, _ in found)
