@@ -36,11 +36,11 @@ def class_part(told: argparse.Namespace) -> str:
         lines.append(row(by_itself(told.size, told.examples, told.loops, styles)))
         floors.append(floor_of_a_class(told.size, told.examples, texts))
     return (
-        f"70 % right, the others slips, crashes and {told.loops} endless loops, which take 2 s of computing each stage; "
+        f"70 % right, the others slips, crashes and {told.loops} endless loops, which cost seconds each; "
         f"{told.examples} cases a stage, every mistake explained. First line: right submissions in all styles of the "
         "specimens, second line: in eight that most students use.\n\n" + "\n".join(lines) + "\n\n"
         f"The floor of {told.size:,} correct submissions, measured between: {floors[0]:.1f} s in all styles, "
-        f"{floors[1]:.1f} s in the plain ones. It is what the students' functions take on all cores, with nothing judged.\n"
+        f"{floors[1]:.1f} s in the plain ones. That is what the functions of students take on all cores.\n"
     )
 
 
