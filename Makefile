@@ -60,7 +60,7 @@ fuzz: $(VENV)/ready
 	@$(PY) -m pytest -q --hypothesis-profile=fuzz -m "hypothesis and not slow"
 
 crashes: $(VENV)/ready
-	@CRASH_ROUNDS=9 $(PY) -m pytest -q -s tests/engine/test_crashes.py
+	@$(PY) -m pytest -q -s tests/engine/test_crashes.py
 
 mutants: $(VENV)/ready
 	@$(PY) -m tests.mutation
