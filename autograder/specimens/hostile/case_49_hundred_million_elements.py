@@ -1,4 +1,4 @@
-# expect: residual=passed jacobian=memory information_matrix=failed others=missing; 49: returns arrays of 10^8 elements, of which the second just fits into memory and is refused for its shape.
+# expect: residual=passed jacobian=memory information_matrix=memory others=missing; 49: returns arrays of 10^8 elements.
 # attack: lying; unlocked left out: takes memory until the machine has none.
 import numpy as np
 
@@ -13,4 +13,4 @@ def jacobian(x, graph):
 
 
 def information_matrix(graph):
-    return np.zeros((10**4, 10**4), np.float32)
+    return np.zeros((10**4, 10**4))
