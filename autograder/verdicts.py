@@ -71,7 +71,8 @@ class Result(msgspec.Struct, frozen=True, kw_only=True):
 
     `score` is None exactly when `status` is "grader_error": our fault is never a zero. `awaiting`
     are points that a human reader has still to give; as long as there are any, the score is
-    `provisional`. `locks` says in words what the level of `confinement` stands for. `flags` are for
+    `provisional`. `locks` says in words what the level of `confinement` stands for;
+    an upload of which nothing was run has none. `exam` is the digest of the exam file. `flags` are for
     staff only, such as numbers that belong to somebody else. `written` are the answers in words by
     question, and `images` the pictures in them, by name, as data URIs. `submitted` and `late` are
     what the system of the course says of the time. What people decide later, the `comments` on
@@ -99,6 +100,7 @@ class Result(msgspec.Struct, frozen=True, kw_only=True):
     late: bool | None = None
     confinement: str
     locks: str = ""
+    exam: str = ""
     seed: int
     grader_version: str
     fingerprint: str

@@ -56,6 +56,13 @@ POLICIES = ("full", "hint", "score")
     "--examples", type=click.IntRange(1), metavar="N", help="Cases drawn a stage. [default: the course's, or 200]"
 )
 @click.option(
+    "--exam",
+    "exam_file",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Grade with this exam (see: autograder exam). [default: the one kept in OUT, else one is drawn]",
+)
+@click.option(
     "--only",
     multiple=True,
     metavar="ID",
@@ -114,13 +121,14 @@ def command(
     """Grade files, folders of files, or both.
 
     Reads .py and .ipynb, grades every submission in a locked process, and writes OUT/grades.csv,
-    OUT/report.html, OUT/feedback/ for students, OUT/results/ for staff, and OUT/run.json. A second
-    run grades only what is new or changed.
+    OUT/report.html, OUT/feedback/ for students, OUT/results/ for staff, OUT/run.json and OUT/exam.
+    A second run takes the same exam and grades only what is new or changed.
 
     \b
     autograder grade uploads/ -o graded
     autograder grade alice.py bob.ipynb -o graded
     autograder grade uploads/ -o graded --course course.toml --seed 2026
+    autograder grade uploads/ -o graded --exam midterm.exam
     autograder grade uploads/ -o graded --only alice
     autograder grade uploads/ -o graded --roster class.csv --ledger release/staff/variants.csv
     autograder grade uploads/ -o graded --roster class.csv --term 2026S --secret-file secret.txt
@@ -136,6 +144,8 @@ def command(
     from autograder.intake.submission import collect
 
     course = load_course(course_file)
+    if course_file is not None:
+        options["examples"] = options["examples"] or course.examples
     secret = secret_of(term, secret_file)
     everything = collect(list(paths))
     submissions = _chosen(everything, only)
@@ -180,6 +190,7 @@ def grade_and_report(
     memory: int | None = None,
     output_limit: int | None = None,
     feedback: str | None = None,
+    exam_file: Path | None = None,
     min_confinement: str | None = None,
     allow_unconfined: bool = False,
     scheduler: str | None = None,
@@ -195,6 +206,7 @@ def grade_and_report(
 
     import msgspec
 
+    from autograder.commands._exam import exam_for
     from autograder.commands._progress import progress
     from autograder.commands._reporting import say, show_changes, write_all
     from autograder.commands.report import stored_results
@@ -214,16 +226,18 @@ def grade_and_report(
         say(
             f"{out} was written with other settings of the course; those of this command hold now, for everybody in it."
         )
+    seed = course.seed if seed is None else seed
+    exam = exam_for(out, exam_file, seed, examples, merge=merge)
     given: dict[str, Any] = {
-        "seed": seed if seed is not None else (course.seed or 0),
-        "examples": examples or course.examples,
+        "seed": (seed or 0) if exam is None else exam.seed,
+        "examples": (examples or course.examples) if exam is None else exam.examples,
         "time_limit": time_limit or course.time_limit,
         "feedback": feedback or course.feedback,
         "min_confinement": min_confinement or course.min_confinement,
     }
     settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, scheduler=scheduler, **given)
     with progress() as report:
-        run = grade(submissions, course, settings, out, report, assigned)
+        run = grade(submissions, course, settings, out, report, assigned, exam)
     results = run.results
     if merge or (run.interrupted and results):
         uploads = {submission.id for submission in submissions}

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
 from pathlib import Path
 
 import msgspec
 
 import autograder
 from autograder.course import Course
-from autograder.engine.corpus import Corpus, draw_corpus
-from autograder.engine.crew import crew, level_of
-from autograder.engine.pool import Answer, Pool
+from autograder.engine.crew import crew, demanded, level_of
+from autograder.engine.exam import FILE as EXAM
+from autograder.engine.exam import Exam, draw_exam, kept_exam, save_exam
+from autograder.engine.pool import LEVELS, Answer, Pool
 from autograder.engine.run import Assigned, Progress, Run, Settings
 from autograder.engine.sharing import Shared
 from autograder.engine.store import RunRecord, Store, code_digest, fingerprint, versions
@@ -34,6 +34,7 @@ def grade(
     out: Path,
     on_progress: Callable[[Progress], None] = lambda _: None,
     assigned: Mapping[str, Assigned] | None = None,
+    exam: Exam | None = None,
 ) -> Run:
     """Grade all submissions into a folder.
 
@@ -51,6 +52,9 @@ def grade(
         Called after every result.
     assigned : mapping of str to Assigned
         For each submission its student and variant; the worked example where nothing is said.
+    exam : Exam, optional
+        The exam; without it the one that is kept in the folder, where it is what the settings ask for, else one is
+        drawn while the workers start. It is kept in the folder before anything is graded.
 
     Returns
     -------
@@ -62,9 +66,9 @@ def grade(
     SandboxError
         Where the confinement is weaker than demanded.
     UsageError
-        Where the output folder cannot be written.
+        Where the output folder cannot be written, or the exam in it cannot be read.
     """
-    return _Grading(submissions, course, settings, Store(out), on_progress, assigned or {}).run()
+    return _Grading(submissions, course, settings, Store(out), on_progress, assigned or {}, exam).run()
 
 
 class _Grading:
@@ -78,6 +82,7 @@ class _Grading:
         store: Store,
         on_progress: Callable[[Progress], None],
         assigned: Mapping[str, Assigned],
+        exam: Exam | None,
     ) -> None:
         self.began = time.perf_counter()
         self.submissions = sorted(submissions, key=lambda one: one.id)
@@ -90,30 +95,66 @@ class _Grading:
         self.shared = Shared()
         self.reused = 0
         self.level = self.locks = ""
-
-    @cached_property
-    def corpus(self) -> Corpus:
-        """The exam; drawn at the first use, which is while the workers start."""
-        return draw_corpus(self.stages, self.settings.seed, self.settings.examples)
+        kept = kept_exam(store.out) if exam is None else exam
+        self.exam = kept if exam or (kept and kept.asks_for(settings.seed, settings.examples)) else None
 
     def run(self) -> Run:
         """Do everything; an interruption keeps what is done."""
         interrupted = False
         try:
-            with crew(self._orders, self.settings, len(self.submissions)) as pool:
-                self.level = level_of(pool, self.settings)
-                self.locks = "" if pool.confinement is None else f"{self.level}: {pool.confinement.detail}"
-                self._confirm(pool, self._first_pass(pool))
+            if self.exam is not None:
+                save_exam(self.exam, self.store.out / EXAM)
+                self._take_known(self.exam)
+            if len(self.results) < len(self.submissions):
+                self._grade_the_rest()
         except KeyboardInterrupt:
             interrupted = True
+        if not self.level:
+            self._recall_the_locks()
         record = self._record(interrupted)
         self.store.save_record(record)
         return Run(tuple(self.results[name] for name in sorted(self.results)), record, interrupted)
 
+    def _take_known(self, exam: Exam) -> None:
+        """Keep what needs no worker: results of the same work, and uploads that could not be read."""
+        for submission in self.submissions:
+            known = None if self.settings.fresh else self.store.load(submission.id, self._fingerprint(submission, exam))
+            if known is not None and self._is_locked_enough(known):
+                self.reused += 1
+                self._keep(known)
+            elif submission.source is None:
+                self._finish(self._rejected(submission))
+
+    def _is_locked_enough(self, known: Result) -> bool:
+        return not known.confinement or LEVELS.index(known.confinement) >= LEVELS.index(demanded(self.settings))
+
+    def _grade_the_rest(self) -> None:
+        """Start workers and grade what has no result yet; the exam is drawn while they start, where it must be."""
+        with crew(self._orders, self.settings, len(self.submissions) - len(self.results)) as pool:
+            self.level = level_of(pool, self.settings)
+            self.locks = "" if pool.confinement is None else f"{self.level}: {pool.confinement.detail}"
+            jobs = [
+                (index, self._job(submission))
+                for index, submission in enumerate(self.submissions)
+                if submission.id not in self.results
+            ]
+            self._confirm(pool, self._first_pass(pool, jobs))
+
+    def _recall_the_locks(self) -> None:
+        """Where nothing was run, the weakest level under which the results came about is that of the run."""
+        locked = [result for result in self.results.values() if result.confinement]
+        if locked:
+            weakest = min(locked, key=lambda result: LEVELS.index(result.confinement))
+            self.level, self.locks = weakest.confinement, weakest.locks
+
     def _orders(self) -> bytes:
+        if self.exam is None:
+            self.exam = draw_exam(self.settings.seed, self.settings.examples)
+            save_exam(self.exam, self.store.out / EXAM)
+            self._take_known(self.exam)
         return msgspec.msgpack.encode(
             Orders(
-                corpus=self.corpus.data,
+                corpus=self.exam.corpus.data,
                 stages=tuple(stage.name for stage in self.stages),
                 points=self.points,
                 time_limit=self.settings.time_limit,
@@ -124,18 +165,8 @@ class _Grading:
             )
         )
 
-    def _first_pass(self, pool: Pool) -> list[int]:
-        """Grade everything that has no result yet; return those that ran out of time."""
-        jobs: list[tuple[int, Grade]] = []
-        for index, submission in enumerate(self.submissions):
-            known = None if self.settings.fresh else self.store.load(submission.id, self._fingerprint(submission))
-            if known is not None:
-                self.reused += 1
-                self._keep(known)
-            elif submission.source is None:
-                self._finish(self._rejected(submission))
-            else:
-                jobs.append((index, self._job(submission)))
+    def _first_pass(self, pool: Pool, jobs: list[tuple[int, Grade]]) -> list[int]:
+        """Grade; return what ran out of time."""
         late: list[int] = []
 
         def done(index: int, answer: Answer) -> None:
@@ -201,6 +232,7 @@ class _Grading:
         return self._base(submission, status="rejected", message=submission.rejection, score=0.0, seconds=0.0)
 
     def _base(self, submission: Submission, **fields: object) -> Result:
+        assert self.exam is not None  # there is no result without an exam
         return msgspec.convert(
             {
                 "submission": submission.id,
@@ -211,9 +243,10 @@ class _Grading:
                 "late": submission.late,
                 "confinement": self.level,
                 "locks": self.locks,
-                "seed": self.settings.seed,
+                "exam": self.exam.digest,
+                "seed": self.exam.seed,
                 "grader_version": autograder.__version__,
-                "fingerprint": self._fingerprint(submission),
+                "fingerprint": self._fingerprint(submission, self.exam),
                 **fields,
             },
             Result,
@@ -233,16 +266,15 @@ class _Grading:
         self.results[result.submission] = self.shared.result(result)
         self.on_progress(Progress(len(self.results), len(self.submissions), self.reused, result.submission))
 
-    def _fingerprint(self, submission: Submission) -> str:
+    def _fingerprint(self, submission: Submission, exam: Exam) -> str:
         """Identify the work: the exam, the rules, the grader and the upload."""
         rules = {"points": self.points, "course": self.course.judging(), "time_limit": self.settings.time_limit}
         return fingerprint(
             [
                 code_digest(),
                 *(f"{name}={value}" for name, value in versions().items()),
-                self.corpus.digest,
+                exam.digest,
                 msgspec.json.encode(rules, order="deterministic").decode(),
-                self.level,
                 submission.id,
                 submission.digest,
                 submission.rejection,
@@ -257,9 +289,9 @@ class _Grading:
 
     def _record(self, interrupted: bool) -> RunRecord:
         return RunRecord(
-            seed=self.settings.seed,
-            examples=self.settings.examples,
-            corpus=self.corpus.digest,
+            seed=self.settings.seed if self.exam is None else self.exam.seed,
+            examples=self.settings.examples if self.exam is None else self.exam.examples,
+            exam="" if self.exam is None else self.exam.digest,
             confinement=self.level,
             locks=self.locks,
             versions=versions(),

@@ -28,7 +28,7 @@ class RunRecord(msgspec.Struct, frozen=True, kw_only=True):
 
     seed: int
     examples: int
-    corpus: str
+    exam: str
     confinement: str
     locks: str = ""
     versions: dict[str, str]

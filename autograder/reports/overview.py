@@ -23,7 +23,7 @@ _NOTHING: Mapping[str, Any] = {
     "locks": "",
     "seed": None,
     "examples": None,
-    "corpus": "",
+    "exam": "",
     "versions": {},
 }
 

@@ -36,9 +36,15 @@ def graded(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
     asked: dict[str, Any] = {"results": [result("alice")], "interrupted": False, "raises": None}
 
     def grade(
-        submissions: Any, course: Any, settings: Any, out: Path, on_progress: Any, assigned: Any = None
+        submissions: Any,
+        course: Any,
+        settings: Any,
+        out: Path,
+        on_progress: Any,
+        assigned: Any = None,
+        exam: Any = None,
     ) -> engine.Run:
-        asked.update(submissions=submissions, course=course, settings=settings, assigned=assigned)
+        asked.update(submissions=submissions, course=course, settings=settings, assigned=assigned, exam=exam)
         if asked["raises"]:
             raise asked["raises"]
         for number, one in enumerate(asked["results"], 1):
@@ -47,7 +53,7 @@ def graded(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         record = RunRecord(
             seed=settings.seed,
             examples=settings.examples,
-            corpus="",
+            exam="",
             confinement="full",
             versions={},
             settings={"feedback": settings.feedback},

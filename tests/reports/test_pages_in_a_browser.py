@@ -23,7 +23,7 @@ from tests.reports.examples import WRONG_J, WRONG_NORMAL, result, small_class, s
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here; .ci/run installs it")]
 
-RECORD = {"seed": 7, "examples": 200, "corpus": "c" * 64, "confinement": "full", "versions": {"numpy": "2"}}
+RECORD = {"seed": 7, "examples": 200, "exam": "c" * 64, "confinement": "full", "versions": {"numpy": "2"}}
 EVIL = "<script>document.title='evil'</script><img src=x onerror=\"document.title='evil'\">&{{7*7}}"
 VIEWS = [(width, dark, script) for width in (360, 1200) for dark in (False, True) for script in (False, True)]
 
