@@ -8,16 +8,16 @@ from pathlib import Path
 
 import msgspec
 
-import autograder
 from autograder.course import Course
 from autograder.engine.crew import crew, demanded, level_of
 from autograder.engine.exam import FILE as EXAM
 from autograder.engine.exam import Exam, draw_exam, kept_exam, save_exam
 from autograder.engine.pool import LEVELS, Answer, Pool
+from autograder.engine.resulting import Ran, Results
 from autograder.engine.run import Assigned, Progress, Run, Settings
 from autograder.engine.sharing import Shared
-from autograder.engine.store import RunRecord, Store, code_digest, fingerprint, versions
-from autograder.engine.worker import Grade, Graded, Orders, Trouble
+from autograder.engine.store import RunRecord, Store, versions
+from autograder.engine.worker import Grade, Graded, Orders
 from autograder.intake.submission import Submission
 from autograder.intake.written import written_answers
 from autograder.problems.variants import published
@@ -89,6 +89,7 @@ class _Grading:
         self.course, self.settings, self.store, self.on_progress = course, settings, store, on_progress
         everybodys = Assigned(published())
         self.assigned = {one.id: assigned.get(one.id, everybodys) for one in submissions}
+        self.write = Results(course, settings.time_limit, self.assigned)
         self.stages = tuple(stage for stage in all_stages() if stage.name in course.stages)
         self.points = {name: course.points[name] for name in course.stages}
         self.results: dict[str, Result] = {}
@@ -118,12 +119,16 @@ class _Grading:
     def _take_known(self, exam: Exam) -> None:
         """Keep what needs no worker: results of the same work, and uploads that could not be read."""
         for submission in self.submissions:
-            known = None if self.settings.fresh else self.store.load(submission.id, self._fingerprint(submission, exam))
+            known = (
+                None
+                if self.settings.fresh
+                else self.store.load(submission.id, self.write.fingerprint(submission, exam))
+            )
             if known is not None and self._is_locked_enough(known):
                 self.reused += 1
                 self._keep(known)
             elif submission.source is None:
-                self._finish(self._rejected(submission))
+                self._finish(self.write.rejected(submission, exam))
 
     def _is_locked_enough(self, known: Result) -> bool:
         return not known.confinement or LEVELS.index(known.confinement) >= LEVELS.index(demanded(self.settings))
@@ -189,74 +194,8 @@ class _Grading:
         return Grade(submission.source, sheet, written_answers(submission.markdown), alone)
 
     def _done(self, index: int, answer: Answer) -> None:
-        self._finish(self._result(self.submissions[index], answer))
-
-    def _result(self, submission: Submission, answer: Answer) -> Result:
-        if isinstance(answer, Trouble):
-            return self._base(submission, status="grader_error", message=answer.message, score=None, seconds=0.0)
-        bonus = sum(stage.score for stage in answer.stages if stage.bonus)
-        score = sum(stage.score for stage in answer.stages if not stage.bonus) + bonus
-        awaiting = sum(stage.max_score for stage in answer.stages if stage.status == "awaiting_mark")
-        return self._base(
-            submission,
-            status="graded",
-            score=round(min(score, max(self.course.bonus_cap, self.max_score)), 6),
-            seconds=answer.seconds,
-            confinement=answer.confinement or self.level,
-            bonus=bonus,
-            provisional=awaiting > 0,
-            awaiting=awaiting,
-            stages=tuple(sorted(answer.stages, key=lambda stage: self.course.stages.index(stage.name))),
-            notes=(*filter(None, [self.assigned[submission.id].note]), *submission.notes, *answer.notes),
-            flags=self._flags(submission, answer),
-            written=answer.written,
-            images={
-                name: data
-                for name, data in submission.pictures.items()
-                if any(name in text for text in answer.written.values())
-            },
-        )
-
-    def _flags(self, submission: Submission, answer: Graded) -> tuple[str, ...]:
-        """Say, to staff only, what is odd about whose it is, and where it carries the numbers of somebody else."""
-        assigned = self.assigned[submission.id]
-        odd = (assigned.flag,) if assigned.flag else ()
-        if assigned.others is None or submission.source is None:
-            return odd
-        carried = assigned.others.in_text(assigned.student_id, "\n".join(submission.source.cells))
-        if answer.iterates is not None:
-            carried = [*assigned.others.in_answers(assigned.student_id, answer.iterates), *carried]
-        return (*odd, *(each.text() for each in carried))
-
-    def _rejected(self, submission: Submission) -> Result:
-        return self._base(submission, status="rejected", message=submission.rejection, score=0.0, seconds=0.0)
-
-    def _base(self, submission: Submission, **fields: object) -> Result:
-        assert self.exam is not None  # there is no result without an exam
-        return msgspec.convert(
-            {
-                "submission": submission.id,
-                "student_id": self.assigned[submission.id].student_id or submission.student_id,
-                "variant": self.assigned[submission.id].variant.identifier,
-                "max_score": self.max_score,
-                "submitted": submission.submitted,
-                "late": submission.late,
-                "confinement": self.level,
-                "locks": self.locks,
-                "exam": self.exam.digest,
-                "seed": self.exam.seed,
-                "grader_version": autograder.__version__,
-                "fingerprint": self._fingerprint(submission, self.exam),
-                **fields,
-            },
-            Result,
-            from_attributes=True,
-        )
-
-    @property
-    def max_score(self) -> float:
-        """Points without the bonus stages."""
-        return self.course.max_score
+        assert self.exam is not None  # it was drawn before the first worker was ready
+        self._finish(self.write.of(self.submissions[index], answer, Ran(self.exam, self.level, self.locks)))
 
     def _finish(self, result: Result) -> None:
         self.store.save(result)
@@ -265,27 +204,6 @@ class _Grading:
     def _keep(self, result: Result) -> None:
         self.results[result.submission] = self.shared.result(result)
         self.on_progress(Progress(len(self.results), len(self.submissions), self.reused, result.submission))
-
-    def _fingerprint(self, submission: Submission, exam: Exam) -> str:
-        """Identify the work: the exam, the rules, the grader and the upload."""
-        rules = {"points": self.points, "course": self.course.judging(), "time_limit": self.settings.time_limit}
-        return fingerprint(
-            [
-                code_digest(),
-                *(f"{name}={value}" for name, value in versions().items()),
-                exam.digest,
-                msgspec.json.encode(rules, order="deterministic").decode(),
-                submission.id,
-                submission.digest,
-                submission.rejection,
-                self.assigned[submission.id].variant.identifier,
-                self.assigned[submission.id].student_id or "",
-                self.assigned[submission.id].note,
-                self.assigned[submission.id].flag,
-                f"{submission.submitted} {submission.late}",
-                *submission.markdown,
-            ]
-        )
 
     def _record(self, interrupted: bool) -> RunRecord:
         return RunRecord(
