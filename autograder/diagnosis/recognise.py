@@ -17,6 +17,7 @@ from autograder.stages.catalogue import slips
 
 FIRST = 16  # calls that are compared one by one, before all the rest
 CLOSE = 1e-8  # relative to the largest number of the array: rounding is smaller, single precision is larger
+COARSE = 1e-6  # the same for answers that were rounded to single precision
 
 
 def trusted_call(function: Callable[..., Any], call: Case, parts: int) -> tuple[Array, ...] | None:
@@ -32,7 +33,7 @@ def trusted_call(function: Callable[..., Any], call: Case, parts: int) -> tuple[
         return None
 
 
-def same(one: Array, other: Array) -> bool:
+def same(one: Array, other: Array, close: float = CLOSE) -> bool:
     """Whether two arrays have one shape and the same numbers up to rounding.
 
     Examples
@@ -46,7 +47,7 @@ def same(one: Array, other: Array) -> bool:
     if not np.array_equal(np.isfinite(one), finite):
         return False
     size = np.abs(other[finite]).max(initial=0.0)
-    return bool((np.abs(one[finite] - other[finite]) <= CLOSE * (size + 1e-6)).all())
+    return bool((np.abs(one[finite] - other[finite]) <= close * (size + 1e-6)).all())
 
 
 @dataclass(frozen=True)
@@ -79,17 +80,17 @@ class Recogniser:
     def __post_init__(self) -> None:
         self._first = sorted(range(len(self.calls)), key=lambda index: (index * GOLDEN) % 1.0)[:FIRST]
 
-    def recognise(self, answers: Answers) -> Slip | None:
-        """Return the slip whose outputs equal the answers on all calls, or None."""
+    def recognise(self, answers: Answers, close: float = CLOSE) -> Slip | None:
+        """Return the slip whose outputs equal the answers on all calls, as closely as they can, or None."""
         given: dict[int, tuple[Array, ...] | None] = {}
 
         def agrees(slip: Slip, index: int) -> bool:
             if index not in given:
                 given[index] = self._given(answers, index)
-            return _agree(self._output(slip, index), given[index])
+            return _agree(self._output(slip, index), given[index], close)
 
         for slip in slips(self.stage.name):
-            if all(agrees(slip, index) for index in self._first) and _all_agree(self._outputs(slip), answers):
+            if all(agrees(slip, index) for index in self._first) and _all_agree(self._outputs(slip), answers, close):
                 return slip
         return None
 
@@ -132,13 +133,15 @@ def laid_out(values: Sequence[tuple[Array, ...] | None], parts: int) -> Given:
     )
 
 
-def _agree(expected: tuple[Array, ...] | None, given: tuple[Array, ...] | None) -> bool:
+def _agree(expected: tuple[Array, ...] | None, given: tuple[Array, ...] | None, close: float) -> bool:
     if expected is None or given is None:
         return expected is given
-    return len(expected) == len(given) and all(same(one, other) for one, other in zip(given, expected, strict=True))
+    return len(expected) == len(given) and all(
+        same(one, other, close) for one, other in zip(given, expected, strict=True)
+    )
 
 
-def _all_agree(expected: Given, given: Answers) -> bool:
+def _all_agree(expected: Given, given: Answers, close: float) -> bool:
     """Whether `same` holds for all arrays of two answers, and both have no numbers in the same calls."""
     if not np.array_equal(expected.outcome != 0, given.outcome != 0) or expected.shapes != given.shapes:
         return False
@@ -149,4 +152,4 @@ def _all_agree(expected: Given, given: Answers) -> bool:
     starts = expected.offsets[:-1][sizes > 0]
     wanted, got = np.where(finite, expected.data, 0.0), np.where(finite, given.data, 0.0)
     largest = np.repeat(np.maximum.reduceat(np.abs(wanted), starts), sizes[sizes > 0]) if len(starts) else wanted
-    return bool((np.abs(got - wanted) <= CLOSE * (largest + 1e-6)).all())
+    return bool((np.abs(got - wanted) <= close * (largest + 1e-6)).all())

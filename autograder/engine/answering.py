@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from autograder.engine.follow import array_of
+from autograder.engine.normal import array_of, put
 from autograder.engine.plan import Plan
-from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Answers, Outputs, Session
 from autograder.stages import answers as stage
 from autograder.stages import written
@@ -75,11 +74,9 @@ def own_steps(plan: Plan, session: Session, sheet: Sheet) -> Any:
     step = plan.stage("gauss_newton_step")
     x, found = np.array(sheet.iterates[0]), []
     for _ in range(len(sheet.iterates) - 1):
-        outputs = session.call(plan.batch(step, [(x, sheet.graph)]))
-        if not isinstance(outputs, Outputs) or outputs.outcome[0] != Outcome.OK:
-            return None
-        dx = array_of(outputs, 0).ravel()
-        if dx.shape != x.shape:
+        outputs = put(session, plan, step, [(x, sheet.graph)])
+        dx = array_of(outputs, 0) if isinstance(outputs, Outputs) else None
+        if dx is None or dx.shape != x.shape:
             return None
         found.append(dx)
         x = x + dx

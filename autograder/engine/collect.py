@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from autograder.engine import follow
+from autograder.engine.normal import normalised, put, shapes_of
 from autograder.engine.plan import Bundle, Plan, Task
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Failure, Loaded, Outputs, Session
@@ -115,7 +116,7 @@ def _bundle(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply] | 
         return outputs
     begins = (0, *bundle.ends[:-1])
     parts = [
-        spread(sliced(outputs, begin, end), task.asked)
+        _settled(sliced(outputs, begin, end), task)
         for task, begin, end in zip(bundle.tasks, begins, bundle.ends, strict=True)
     ]
     rounds = [task.stage.follow_up(task.prepared, part) for task, part in zip(bundle.tasks, parts, strict=True)]
@@ -126,6 +127,7 @@ def _bundle(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply] | 
     if isinstance(again, Failure):
         session.restore(before)
         return again
+    again = normalised(again, shapes_of(bundle.tasks[0].stage, calls))
     ends = np.cumsum([len(each or ()) for each in rounds]).tolist()
     seconds = [sliced(again, *span) for span in zip((0, *ends[:-1]), ends, strict=True)]
     return {
@@ -148,12 +150,17 @@ def ask(session: Session, plan: Plan, task: Task) -> Reply:
     outputs = session.run(task.batch)
     if isinstance(outputs, Failure):
         return Reply(outputs)
-    outputs = spread(outputs, task.asked)
+    outputs = _settled(outputs, task)
     calls = task.stage.follow_up(task.prepared, outputs)
     again = None if calls is None else session.call(plan.second_round([task], calls))
     if isinstance(again, Failure):
         return Reply(outputs, again)
-    return _judged(task, outputs, again)
+    return _judged(task, outputs, None if again is None else normalised(again, shapes_of(task.stage, calls or [])))
+
+
+def _settled(outputs: Outputs, task: Task) -> Outputs:
+    """Give every call of a check its outputs, in the shapes that were asked for."""
+    return normalised(spread(outputs, task.asked), task.stage.layout(task.prepared).shapes)
 
 
 def _judged(task: Task, outputs: Outputs, again: Outputs | None) -> Reply:
@@ -214,7 +221,7 @@ def _own_systems(session: Session, plan: Plan, collected: Collected) -> dict[str
             if (reply := collected.replies.get(plan.batch_of(name, task.rung.name))) is not None
         ]
         calls = follow.own_calls(task.cases, [part for part in parts if isinstance(part, Outputs)])
-        outputs = None if calls is None else session.call(plan.batch(plan.stage(follow.LAST), calls))
+        outputs = None if calls is None else put(session, plan, plan.stage(follow.LAST), calls)
         systems = None if not isinstance(outputs, Outputs) else follow.own_systems(task.cases, task.patterns, outputs)
         if systems is None:
             return None

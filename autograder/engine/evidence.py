@@ -10,12 +10,12 @@ import numpy as np
 from assignment.posegraph import PoseGraph, Ranging
 from autograder.diagnosis.recognise import Given
 from autograder.engine.collect import Reply
-from autograder.engine.follow import array_of
+from autograder.engine.normal import array_of
 from autograder.engine.plan import Task
 from autograder.problems.plain import plain
 from autograder.sandbox.frames import Kind, Outcome
 from autograder.sandbox.host import Outputs
-from autograder.stages.base import Array, fits
+from autograder.stages.base import Array
 
 MAX_SHOWN_POSES = 10  # a larger counterexample is described in words only
 
@@ -68,7 +68,7 @@ def why(task: Task, index: int, reply: Reply) -> tuple[Outcome, str]:
     names = _PARTS.get(function, ("",)) * len(got)
     for name, array, wanted in zip(names, got, expected, strict=False):
         what = f"{name} of {function}" if name else function
-        if not fits(array.shape, wanted.shape):
+        if array.shape != wanted.shape:
             return Outcome.BAD_VALUE, f"{what} returned shape {array.shape}, expected {wanted.shape}."
         if not np.isfinite(array).all():
             return Outcome.BAD_VALUE, f"{what} returned {_not_finite(array)}, expected finite numbers."
@@ -101,7 +101,7 @@ def _arrays(task: Task, index: int, reply: Reply) -> list[Array]:
     found = [array_of(outputs, number) for number in range(first, last)]
     if isinstance(again, Outputs):
         found.append(array_of(again, index))
-    return found
+    return [np.full(1, np.nan) if each is None else each for each in found]
 
 
 def counterexample(task: Task, index: int, reply: Reply) -> dict[str, Any] | None:
@@ -166,11 +166,7 @@ def remarks(tasks: Sequence[Task], replies: Sequence[Reply]) -> tuple[str, ...]:
         met = set(outputs.kinds.tobytes()) - ({Kind.BOOL_ARRAY} if task.stage.takes_truth else set())
         for kind in sorted(met & _REMARKS.keys()):
             found[f"{function} {_REMARKS[Kind(kind)]}"] = None
-        wanted = task.stage.layout(task.prepared).shapes
-        if outputs.shapes != wanted and any(
-            shape != want and len(want) == 1 and fits(shape, want)
-            for shape, want in zip(outputs.shapes, wanted, strict=True)
-        ):
+        if outputs.reshaped:
             found[
                 f"{function} returns a column or a row; a vector, shape (m,), is expected, and it was read as one."
             ] = None

@@ -17,11 +17,12 @@ from autograder.diagnosis.facts import Answered, facts
 from autograder.diagnosis.probes import Probe, Values, derivative_probe, probes
 from autograder.engine import evidence
 from autograder.engine.collect import Reply, ask
-from autograder.engine.follow import EARLIER, STAGE, array_of
+from autograder.engine.follow import EARLIER, STAGE
+from autograder.engine.normal import array_of, put
 from autograder.engine.plan import Plan, Task
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs, Session
-from autograder.stages.base import Stage, fits
+from autograder.stages.base import Stage
 from autograder.verdicts import CheckVerdict, StageVerdict
 
 
@@ -121,12 +122,10 @@ def _probed(session: Session, plan: Plan, stage: Stage) -> list[str]:
 
 def _values(session: Session, plan: Plan, probe: Probe) -> Values:
     stage = next(stage for stage, _ in plan.stages if stage.function == probe.function)
-    outputs = session.call(plan.batch(stage, probe.calls))
+    outputs = put(session, plan, stage, list(probe.calls))
     if not isinstance(outputs, Outputs):
         return [None] * len(probe.calls)
-    return [
-        array_of(outputs, index) if outputs.outcome[index] == Outcome.OK else None for index in range(len(probe.calls))
-    ]
+    return [array_of(outputs, index) for index in range(len(probe.calls))]
 
 
 def _got(task: Task, index: int, outputs: Outputs) -> tuple[np.ndarray, ...] | None:
@@ -137,6 +136,5 @@ def _got(task: Task, index: int, outputs: Outputs) -> tuple[np.ndarray, ...] | N
     parts = task.stage.parts
     wanted = task.stage.layout(task.prepared).shapes
     numbers = range(first * parts, (first + 1) * parts)
-    if not all(fits(outputs.shapes[number], wanted[number]) for number in numbers):
-        return None
-    return tuple(array_of(outputs, number) for number in numbers)
+    found = [array_of(outputs, number) for number in numbers if outputs.shapes[number] == wanted[number]]
+    return tuple(each for each in found if each is not None) if len(found) == parts else None

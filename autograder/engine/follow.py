@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from autograder.engine.normal import arrays_of
 from autograder.problems.cases import Case
 from autograder.sandbox.host import Outputs
-from autograder.stages.base import Array, fits
+from autograder.stages.base import Array
 from autograder.stages.gauss_newton_step import BACKWARD_ERROR
 
 STAGE = "gauss_newton_step"
@@ -29,22 +29,7 @@ class Systems:
 
     def solved_by(self, steps: Sequence[Array]) -> bool:
         """Whether every dx solves its own H dx = -b, by backward error."""
-        return all(_solves(H, b, dx.ravel()) for H, b, dx in zip(self.H, self.b, steps, strict=True))
-
-
-def array_of(outputs: Outputs, number: int) -> Array:
-    """Return one returned array in the shape in which it came; nan in a shape that holds no numbers."""
-    return _shaped(outputs.data[outputs.offsets[number] : outputs.offsets[number + 1]], outputs.shapes[number])
-
-
-def arrays_of(outputs: Outputs) -> list[Array]:
-    """Return all returned arrays, each in the shape in which it came."""
-    ends, data = outputs.offsets.tolist(), outputs.data
-    return [_shaped(data[a:b], shape) for a, b, shape in zip(ends, ends[1:], outputs.shapes, strict=False)]
-
-
-def _shaped(values: Array, shape: tuple[int, ...]) -> Array:
-    return values.reshape(shape) if values.size == math.prod(shape) else np.full(1, np.nan)
+        return all(_solves(H, b, dx) for H, b, dx in zip(self.H, self.b, steps, strict=True))
 
 
 def own_calls(cases: Sequence[Case], ingredients: Sequence[Outputs]) -> list[Case] | None:
@@ -56,9 +41,9 @@ def own_calls(cases: Sequence[Case], ingredients: Sequence[Outputs]) -> list[Cas
     calls = []
     for (_, graph), J, omega, f in zip(cases, *map(arrays_of, ingredients), strict=True):
         m, n = graph.n_factors, graph.n_poses
-        if J.shape != (m, n) or omega.shape != (m, m) or not fits(f.shape, (m,)):
+        if J.shape != (m, n) or omega.shape != (m, m) or f.shape != (m,):
             return None
-        calls.append((J, omega, f.ravel()))
+        calls.append((J, omega, f))
     return calls
 
 
@@ -71,9 +56,9 @@ def own_systems(cases: Sequence[Case], patterns: Sequence[NDArray[np.bool_]], ou
     if outputs.outcome.any() or not np.isfinite(outputs.data).all():
         return None
     arrays = arrays_of(outputs)
-    systems = Systems(arrays[::2], [b.ravel() for b in arrays[1::2]])
-    for H, b, pattern in zip(systems.H, arrays[1::2], patterns, strict=True):
-        if not fits(b.shape, (len(pattern),)) or not _sound(H, pattern):
+    systems = Systems(arrays[::2], arrays[1::2])
+    for H, b, pattern in zip(systems.H, systems.b, patterns, strict=True):
+        if b.shape != (len(pattern),) or not _sound(H, pattern):
             return None
     states = [x for x, _ in cases]
     trivial = any(systems.solved_by([factor * x for x in states]) for factor in (0.0, -1.0))

@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from autograder.diagnosis.equivalence import Convention, Rows, convention
-from autograder.diagnosis.recognise import Recogniser
+from autograder.diagnosis.recognise import CLOSE, COARSE, Recogniser
 from autograder.engine import evidence, follow
 from autograder.engine.collect import Absent, Collected, Reply
 from autograder.engine.groups import digest
+from autograder.engine.normal import arrays_of
 from autograder.engine.plan import Plan, Task
 from autograder.problems.cases import Case
-from autograder.sandbox.frames import Outcome
+from autograder.sandbox.frames import Kind, Outcome
 from autograder.sandbox.host import Outputs
 from autograder.stages.base import Slip, Stage
 from autograder.verdicts import CheckVerdict, StageStatus, StageVerdict
@@ -103,7 +104,7 @@ class Judge:
         """Pay the follow-through share for a step that solves the student's own equations."""
         if check.passed or not isinstance(reply.outputs, Outputs) or reply.outputs.outcome.any():
             return check
-        if not own[task.rung.name].solved_by(follow.arrays_of(reply.outputs)):
+        if not own[task.rung.name].solved_by(arrays_of(reply.outputs)):
             return check
         return _check_verdict(
             task,
@@ -123,7 +124,8 @@ class Judge:
             starts = np.cumsum([0, *(len(task.asked) for task in tasks)])
             same_as = np.concatenate([start + task.same_as for start, task in zip(starts, tasks, strict=False)])
             known = self._recognisers.setdefault(stage.name, Recogniser(stage, calls, same_as))
-        return known.recognise(evidence.joined(outputs))
+        coarse = any(Kind.FLOAT32_ARRAY in each.kinds.tobytes() for each in outputs)
+        return known.recognise(evidence.joined(outputs), COARSE if coarse else CLOSE)
 
     def _convention(self, collected: Collected) -> Convention | None:
         """Find one convention that explains f, J and Omega of every case, where one of them is not as expected."""

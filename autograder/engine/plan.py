@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -220,7 +221,7 @@ def _joined(batches: Sequence[frames.Batch]) -> frames.Batch:
 
 
 def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[Shared, int]) -> frames.Batch:
-    largest = max((stage.largest(*call) for call in calls), default=0)
+    largest = max((math.prod(shape) for call in calls for shape in stage.shapes(*call)), default=0)
     return frames.Batch(
         function=stage.function,
         parts=stage.parts,

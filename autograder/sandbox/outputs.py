@@ -119,6 +119,8 @@ class Outputs:
         Words for at most 16 of the cases that are not OK.
     mutated : int
         The first case whose input array the call changed in place, -1 if none.
+    reshaped : bool
+        Whether a column or a row was read as the vector that it stands for; set when the engine normalises.
     """
 
     outcome: np.ndarray
@@ -128,6 +130,7 @@ class Outputs:
     data: np.ndarray
     reasons: dict[int, str]
     mutated: int
+    reshaped: bool = False
 
 
 def read_outputs(report: BatchReport, expected: Expected) -> Outputs:

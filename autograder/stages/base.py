@@ -137,9 +137,9 @@ class Stage(ABC):
     def expected(self, *arguments: Any) -> tuple[Array, ...]:
         """Return the right answer to one call, by the reference."""
 
-    def largest(self, *arguments: Any) -> int:
-        """Return how many numbers the largest array of the right answer has; a stage may know without the answer."""
-        return max(array.size for array in self.expected(*arguments))
+    def shapes(self, *arguments: Any) -> list[Shape]:
+        """Return the shape of every array of the right answer; a stage may know them without the answer."""
+        return [array.shape for array in self.expected(*arguments)]
 
     @abstractmethod
     def prepare(self, cases: Sequence[Case]) -> Any:
@@ -208,7 +208,7 @@ class ArrayStage(Stage):
 def aligned(prepared: Batch, answers: Answers) -> tuple[Array, NDArray[np.bool_]]:
     """Lay the answers over the expected ones: their numbers, and which arrays have a usable shape.
 
-    Numbers of unusable arrays are nan. A column or a row of the right length stands for a vector.
+    Numbers of unusable arrays are nan.
     """
     n = len(prepared.shapes)
     if answers.shapes == prepared.shapes and answers.data.size == prepared.data.size:
@@ -218,20 +218,7 @@ def aligned(prepared: Batch, answers: Answers) -> tuple[Array, NDArray[np.bool_]
     for index, (shape, wanted) in enumerate(zip(answers.shapes, prepared.shapes, strict=True)):
         lo, hi = answers.offsets[index], answers.offsets[index + 1]
         start, end = prepared.starts[index], prepared.ends[index]
-        if fits(shape, wanted) and hi - lo == end - start:
+        if shape == wanted and hi - lo == end - start:
             got[start:end] = answers.data[lo:hi]
             usable[index] = True
     return got, usable
-
-
-def fits(shape: Shape, wanted: Shape) -> bool:
-    """Whether an array of this shape can stand for the wanted one.
-
-    Examples
-    --------
-    >>> fits((6, 1), (6,)), fits((1, 6), (6,)), fits((5, 6), (6, 5))
-    (True, True, False)
-    """
-    if shape == wanted:
-        return True
-    return len(wanted) == 1 and shape in ((wanted[0], 1), (1, wanted[0]))

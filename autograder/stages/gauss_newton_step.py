@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
-from autograder.stages.base import Answers, Array, Batch, Stage, aligned
+from autograder.stages.base import Answers, Array, Batch, Shape, Stage, aligned
 from autograder.stages.wording import number, vector
 from reference_solution import slam1d
 
@@ -65,9 +65,9 @@ class GaussNewtonStep(Stage):
         """Return dx by the reference."""
         return (slam1d.gauss_newton_step(x, graph),)
 
-    def largest(self, x: Array, graph: PoseGraph) -> int:
-        """Return n."""
-        return graph.n_poses
+    def shapes(self, x: Array, graph: PoseGraph) -> list[Shape]:
+        """Return (n,)."""
+        return [(graph.n_poses,)]
 
     def prepare(self, cases: Sequence[Case]) -> Systems:
         """Form every H and b once, and keep the entries of H that are not 0."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from autograder.problems.cases import Case
 from autograder.problems.ladders import MATRICES
-from autograder.stages.base import Array, ArrayStage
+from autograder.stages.base import Array, ArrayStage, Shape
 from autograder.stages.wording import number, vector
 from reference_solution import slam1d
 
@@ -26,9 +26,10 @@ class NormalEquations(ArrayStage):
         """Return H and b."""
         return slam1d.normal_equations(J, omega, f)
 
-    def largest(self, J: Array, omega: Array, f: Array) -> int:
-        """Return n^2, the size of H."""
-        return int(J.shape[1] ** 2)
+    def shapes(self, J: Array, omega: Array, f: Array) -> list[Shape]:
+        """Return (n, n) and (n,)."""
+        n = J.shape[1]
+        return [(n, n), (n,)]
 
     def tolerance(self, J: Array, omega: Array, f: Array) -> tuple[Array, ...]:
         """Allow 1e-9 of |J|^T Omega |J| and |J|^T Omega |f|, the bounds of rounding in these sums.

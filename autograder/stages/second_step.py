@@ -13,7 +13,7 @@ from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.graphs import information, loop_edges, nudged
 from autograder.problems.ladders import LOOPS
-from autograder.stages.base import Answers, Array, Batch, Stage, aligned
+from autograder.stages.base import Answers, Array, Batch, Shape, Stage, aligned
 from autograder.stages.wording import number, vector
 from reference_solution import slam1d
 
@@ -64,9 +64,9 @@ class SecondStep(Stage):
         """Return dx by the reference; it sizes the replies and plays no part in the verdict."""
         return (slam1d.gauss_newton_step(x, graph),)
 
-    def largest(self, x: Array, graph: PoseGraph) -> int:
-        """Return n."""
-        return graph.n_poses
+    def shapes(self, x: Array, graph: PoseGraph) -> list[Shape]:
+        """Return (n,)."""
+        return [(graph.n_poses,)]
 
     def prepare(self, cases: Sequence[Case]) -> Loops:
         """Lay out all calls of all loops."""

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from autograder.engine.collect import spread
 from autograder.engine.corpus import draw_corpus
-from autograder.engine.follow import arrays_of
+from autograder.engine.normal import arrays_of
 from autograder.engine.plan import make_plan
 from autograder.problems.cases import key
 from autograder.sandbox import frames

@@ -104,15 +104,6 @@ def test_central_differences_pass(cases):
             assert verdicts(STAGES[name], found, function).all()
 
 
-@pytest.mark.parametrize("name", ["residual", "gauss_newton_step"])
-@pytest.mark.parametrize("shape", [(-1, 1), (1, -1)])
-def test_a_column_or_a_row_stands_for_a_vector(cases, name, shape):
-    """(m, 1) and (1, m) are read as (m,)."""
-    stage = STAGES[name]
-    for _, found in rungs(cases, stage):
-        assert verdicts(stage, found, lambda x, graph: getattr(slam1d, stage.function)(x, graph).reshape(shape)).all()
-
-
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("name", STAGES)
 def test_no_number_is_no_answer(cases, name, value):
