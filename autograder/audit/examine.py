@@ -10,8 +10,7 @@ import msgspec
 from autograder.course import Course
 from autograder.engine.corpus import Corpus
 from autograder.engine.local import LocalPool, default_workers
-from autograder.engine.pool import Answer
-from autograder.engine.worker import Grade, Orders, Trouble
+from autograder.engine.messages import Answer, Grade, Orders, Trouble
 from autograder.errors import SandboxError
 from autograder.sandbox.frames import Source
 from autograder.stages.base import Stage

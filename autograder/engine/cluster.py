@@ -20,8 +20,8 @@ import msgspec
 
 from autograder.engine import remote
 from autograder.engine.members import Member, Members, connect
-from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Answer
-from autograder.engine.worker import Grade, Graded, Ready, Trouble, decode_message
+from autograder.engine.messages import Answer, Grade, Graded, Ready, Trouble, decode_message
+from autograder.engine.pool import GIVEN_UP, MAX_LOSSES
 
 DEPTH = 2  # tasks a worker has: one that runs and one that waits, so that it is never idle
 LOOK_SECONDS = 0.5  # between looks at which workers there are

@@ -4,19 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from autograder.engine.local import LocalPool, default_workers
+from autograder.engine.messages import Ready
 from autograder.engine.pool import LEVELS, Pool
 from autograder.engine.run import Settings
-from autograder.engine.worker import Ready
 from autograder.errors import SandboxError
 
 
 def crew(orders: Callable[[], bytes], settings: Settings, most: int) -> Pool:
     """Choose the workers of a run, at most so many; they start when the pool is entered.
 
-    The orders are asked for once, while the workers start.
+    The orders are asked for once, while the workers start. A single submission needs no process
+    between this one and the locked child: starting one would take longer than grading.
     """
+    if settings.scheduler is None and most == 1:
+        from autograder.engine.here import Here  # noqa: PLC0415 - imported by whoever needs it only
+
+        return Here(orders)
     if settings.scheduler is None:
+        from autograder.engine.local import LocalPool, default_workers  # noqa: PLC0415 - as above
+
         return LocalPool(orders, max(1, min(settings.workers or default_workers(), most)))
     from autograder.engine.cluster import Cluster  # noqa: PLC0415 - an extra that not everybody installs
 

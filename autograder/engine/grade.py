@@ -12,12 +12,12 @@ from autograder.course import Course
 from autograder.engine.crew import crew, demanded, level_of
 from autograder.engine.exam import FILE as EXAM
 from autograder.engine.exam import Exam, draw_exam, kept_exam, save_exam
-from autograder.engine.pool import LEVELS, Answer, Pool
+from autograder.engine.messages import Answer, Grade, Graded, Orders
+from autograder.engine.pool import LEVELS, Pool
 from autograder.engine.resulting import Ran, Results
 from autograder.engine.run import Assigned, Progress, Run, Settings
 from autograder.engine.sharing import Shared
 from autograder.engine.store import RunRecord, Store, versions
-from autograder.engine.worker import Grade, Graded, Orders
 from autograder.intake.submission import Submission
 from autograder.intake.written import written_answers
 from autograder.problems.variants import published

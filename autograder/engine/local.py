@@ -15,9 +15,8 @@ from typing import Any
 
 import msgspec
 
-from autograder.engine import worker
-from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Answer
-from autograder.engine.worker import Grade, Ready, Trouble
+from autograder.engine.messages import Answer, Grade, Ready, Trouble, decode_message
+from autograder.engine.pool import GIVEN_UP, MAX_LOSSES
 from autograder.errors import SandboxError
 from autograder.sandbox.server import ONE_THREAD
 
@@ -131,7 +130,7 @@ class LocalPool:
     def _start_once(self, context: multiprocessing.context.SpawnContext) -> _Worker | None:
         """Start a worker, and tell it the orders if they are known; None where it was killed before it had them."""
         ours, theirs = context.Pipe()
-        process = context.Process(target=worker.main, args=(theirs,), daemon=True)
+        process = context.Process(target=_serve, args=(theirs,), daemon=True)
         try:
             with _as_a_worker():
                 process.start()
@@ -180,7 +179,7 @@ class LocalPool:
             each.connection.send_bytes(msgspec.msgpack.encode(job))
 
     def _receive(self, each: _Worker) -> Answer | None:
-        message = worker.decode_message(each.connection.recv_bytes(MAX_FRAME))
+        message = decode_message(each.connection.recv_bytes(MAX_FRAME))
         if isinstance(message, Trouble) and message.fatal:
             raise SandboxError(message.message)
         if isinstance(message, Ready):
@@ -211,6 +210,13 @@ def _as_a_worker() -> Iterator[None]:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+def _serve(connection: Connection) -> None:
+    """Be a worker: what only workers need is imported in their own process."""
+    from autograder.engine import worker  # noqa: PLC0415
+
+    worker.main(connection)
 
 
 def default_workers() -> int:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from autograder.engine import remote
+from autograder.engine.messages import Ready, Trouble
 from autograder.engine.pool import LEVELS
 from autograder.engine.store import versions
-from autograder.engine.worker import Ready, Trouble
 from autograder.errors import SandboxError, UsageError
 
 CONNECT_SECONDS = 10.0

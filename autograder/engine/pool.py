@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Protocol, Self
 
-from autograder.engine.worker import Grade, Graded, Ready, Trouble
+from autograder.engine.messages import Answer, Grade, Ready, Trouble
 
-Answer = Graded | Trouble
 LEVELS = ("none", "seccomp", "full")  # of confinement, from weak to strong
 MAX_LOSSES = 2  # a submission whose worker is lost so often is given up
 GIVEN_UP = Trouble("The worker process was lost twice while this submission ran.", lost=True)

@@ -12,9 +12,10 @@ from dataclasses import dataclass
 
 import msgspec
 
+from autograder.engine.messages import Grade, Orders, Ready, Trouble
 from autograder.engine.plan import Plan
 from autograder.engine.store import versions
-from autograder.engine.worker import Examiner, Grade, Orders, Ready, Trouble
+from autograder.engine.worker import Examiner, limits_of, plan_of
 from autograder.errors import AutograderError, SandboxLost
 from autograder.sandbox.host import Sandbox
 
@@ -44,8 +45,8 @@ class _Held:
 
     @classmethod
     def of(cls, orders: Orders) -> _Held:
-        plan = orders.plan()
-        sandbox = Sandbox(plan.inputs, orders.limits(), allow_unconfined=orders.allow_unconfined)
+        plan = plan_of(orders)
+        sandbox = Sandbox(plan.inputs, limits_of(orders), allow_unconfined=orders.allow_unconfined)
         return cls(orders, plan, sandbox, Examiner(plan, sandbox))
 
 

@@ -10,10 +10,9 @@ import msgspec
 import autograder
 from autograder.course import Course
 from autograder.engine.exam import Exam
-from autograder.engine.pool import Answer
+from autograder.engine.messages import Answer, Graded, Trouble
 from autograder.engine.run import Assigned
 from autograder.engine.store import code_digest, fingerprint, versions
-from autograder.engine.worker import Graded, Trouble
 from autograder.intake.submission import Submission
 from autograder.verdicts import Result
 

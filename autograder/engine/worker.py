@@ -9,7 +9,6 @@ import threading
 import time
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection, wait
-from typing import Any
 
 import msgspec
 
@@ -19,90 +18,24 @@ from autograder.engine.corpus import case_of, load_corpus
 from autograder.engine.explain import explain
 from autograder.engine.follow import STAGE
 from autograder.engine.judge import Judge
+from autograder.engine.messages import Answer, Grade, Graded, Message, Orders, Ready, Trouble
 from autograder.engine.plan import Plan, make_plan
 from autograder.errors import AutograderError, SandboxLost
 from autograder.problems.variants import published
-from autograder.sandbox.frames import Source
 from autograder.sandbox.host import Answers, Limits, Sandbox, Server
 from autograder.stages import answers, written
 from autograder.stages.answers import Sheet
 from autograder.stages.catalogue import stage
-from autograder.verdicts import StageVerdict
 
 
-class Orders(msgspec.Struct, frozen=True):
-    """What a worker is told once: the exam and the rules."""
-
-    corpus: bytes
-    stages: tuple[str, ...]
-    points: dict[str, float]
-    time_limit: float
-    memory_mib: int
-    output_mib: int
-    allow_unconfined: bool
-    follow_through: float
-
-    def plan(self) -> Plan:
-        """Lay out the run."""
-        return make_plan(
-            [stage(name) for name in self.stages], self.points, load_corpus(self.corpus), self.follow_through
-        )
-
-    def limits(self) -> Limits:
-        """Return the limits of a child."""
-        return Limits(
-            cpu_seconds=self.time_limit, memory_mib=self.memory_mib, output_bytes=self.output_mib * 1024 * 1024
-        )
+def plan_of(told: Orders) -> Plan:
+    """Lay out the run."""
+    return make_plan([stage(name) for name in told.stages], told.points, load_corpus(told.corpus), told.follow_through)
 
 
-class Grade(msgspec.Struct, frozen=True):
-    """Ask to run, judge and explain one submission.
-
-    `sheet` is the variant on record: its identifier, and its graph and iterates as a plain case;
-    None stands for the worked example. `markdown_answers` is what a notebook says under the written questions.
-    Once something runs out of time, nothing more is asked, unless the submission runs `alone` to confirm that.
-    """
-
-    source: Source
-    sheet: tuple[str, list[Any]] | None = None
-    markdown_answers: dict[str, str] = {}
-    alone: bool = False
-
-
-class Ready(msgspec.Struct, frozen=True, tag=True):
-    """The worker's first message: the confinement that it gives."""
-
-    level: str
-    detail: str
-
-
-class Graded(msgspec.Struct, frozen=True, tag=True):
-    """What became of one submission."""
-
-    stages: tuple[StageVerdict, ...]
-    notes: tuple[str, ...]
-    ran_out: bool
-    seconds: float
-    written: dict[str, str]
-    iterates: list[list[float]] | None
-    confinement: str = ""
-
-
-class Trouble(msgspec.Struct, frozen=True, tag=True):
-    """The grader's own fault, in words; `lost` where nothing is known but that a worker has gone."""
-
-    message: str
-    fatal: bool = False
-    lost: bool = False
-
-
-Message = Ready | Graded | Trouble
-_decoder: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)
-
-
-def decode_message(data: bytes) -> Message:
-    """Read what a worker sent."""
-    return _decoder.decode(data)
+def limits_of(told: Orders) -> Limits:
+    """Return the limits of a child."""
+    return Limits(cpu_seconds=told.time_limit, memory_mib=told.memory_mib, output_bytes=told.output_mib * 1024 * 1024)
 
 
 def main(connection: Connection) -> None:
@@ -118,8 +51,8 @@ def main(connection: Connection) -> None:
         try:
             server = Server()  # it starts while the exam is still being drawn
             told = msgspec.msgpack.decode(connection.recv_bytes(), type=Orders)
-            plan = told.plan()
-            sandbox = Sandbox(plan.inputs, told.limits(), allow_unconfined=told.allow_unconfined, server=server)
+            plan = plan_of(told)
+            sandbox = Sandbox(plan.inputs, limits_of(told), allow_unconfined=told.allow_unconfined, server=server)
         except SandboxLost:
             raise
         except AutograderError as error:
@@ -156,7 +89,7 @@ class Examiner:
         self.plan = plan
         self.judge = Judge(plan)
 
-    def do(self, job: Grade) -> Message:
+    def do(self, job: Grade) -> Answer:
         """Grade one submission; whatever goes wrong here is the grader's fault, never a zero.
 
         Raises

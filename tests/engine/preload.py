@@ -10,7 +10,7 @@ import os
 import msgspec
 
 from autograder.engine import remote
-from autograder.engine.worker import Ready
+from autograder.engine.messages import Ready
 
 # Dask may load this file twice, and the second time the functions are ours already.
 _work, _prepare = remote.__dict__.setdefault("_own", (remote.work, remote.prepare))
