@@ -7,12 +7,16 @@ by their hashes, pictures are data.
 from __future__ import annotations
 
 import base64
+import contextlib
 import hashlib
+import sys
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import Environment, FileSystemBytecodeCache, PackageLoader, StrictUndefined
+from jinja2.bccache import Bucket
 from markupsafe import Markup
 
 from autograder.reports import charts
@@ -32,9 +36,24 @@ def picture(svg: str, description: str) -> Markup:
     return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(data, description)
 
 
+class _Compiled(FileSystemBytecodeCache):
+    """Compiled templates, kept beside their sources as Python keeps its modules, where that is allowed."""
+
+    def __init__(self) -> None:
+        super().__init__(str(Path(__file__).parent / "templates" / "__pycache__"), "%s.jinja")
+
+    def dump_bytecode(self, bucket: Bucket) -> None:
+        """Keep what was compiled; a folder that is not ours to write in costs time and nothing else."""
+        if not sys.dont_write_bytecode:
+            with contextlib.suppress(OSError):
+                Path(self.directory).mkdir(exist_ok=True)
+                super().dump_bytecode(bucket)
+
+
 @cache
 def _environment() -> Environment:
     environment = Environment(
+        bytecode_cache=_Compiled(),
         loader=PackageLoader("autograder", _TEMPLATES),
         autoescape=True,
         undefined=StrictUndefined,
