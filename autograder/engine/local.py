@@ -214,7 +214,7 @@ def _as_a_worker() -> Iterator[None]:
 
 def _serve(connection: Connection) -> None:
     """Be a worker: what only workers need is imported in their own process."""
-    from autograder.engine import worker  # noqa: PLC0415
+    from autograder.engine import worker  # noqa: PLC0415 - the client never needs it
 
     worker.main(connection)
 
