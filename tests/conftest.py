@@ -1,6 +1,12 @@
-"""What every test shares: examples of Hypothesis that are the same in every run."""
+"""What every test shares: examples that are the same in every run, and no explanation that fails unseen."""
+
+import os
 
 from hypothesis import HealthCheck, settings
+
+from autograder.engine.attempts import STRICT
+
+os.environ[STRICT] = "1"  # workers too: an explanation that fails fails the test
 
 settings.register_profile("default", derandomize=True, database=None, deadline=None, print_blob=False)
 settings.register_profile(

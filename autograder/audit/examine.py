@@ -41,7 +41,7 @@ def examine(
     Raises
     ------
     SandboxError
-        Where this machine cannot confine, or the grader failed on a source.
+        Where this machine cannot confine, or the grader failed on a source, be it only in finding words.
     """
     orders = Orders(
         corpus=corpus.data,
@@ -62,6 +62,8 @@ def examine(
         if answer.ran_out and index not in late:
             late.append(index)
             return
+        if answer.flags:
+            raise SandboxError(f"{sources[index].name} could not be explained: {' '.join(answer.flags)}")
         found[index] = answer.stages
         on_done(len(found), len(sources), sources[index].name)
 

@@ -1,25 +1,27 @@
-"""Explain a wrong stage: true sentences about it, and a small case that shows it.
+"""Explain a wrong stage: ask the submission more, for true sentences about it and a small case that shows it.
 
 The submission itself is asked all cases of the gallery, in a child that has answered nothing else,
 and is shown the simplest that it gets wrong. Nobody else's answers count: what a page shows
 depends on one submission alone. Where the whole gallery is right, the case of the exam stands.
+The marks are final before; each step is an attempt, and one that fails leaves the words that were there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from msgspec.structs import replace
 
 from autograder.diagnosis.facts import Answered, facts
 from autograder.diagnosis.probes import Probe, Values, derivative_probe, probes
-from autograder.engine import evidence
+from autograder.engine.attempts import Attempts
 from autograder.engine.collect import Reply, ask
+from autograder.engine.describe import swapped
 from autograder.engine.follow import EARLIER, STAGE
 from autograder.engine.normal import array_of, put
 from autograder.engine.plan import Plan, Task
+from autograder.engine.showing import Example, counterexample, why
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs, Session
 from autograder.stages.base import Stage
@@ -35,7 +37,7 @@ def wants_explanation(verdict: StageVerdict) -> bool:
 
 
 def explain(
-    session: Session, plan: Plan, verdicts: Sequence[StageVerdict], replies: Mapping[int, Reply]
+    session: Session, plan: Plan, verdicts: Sequence[StageVerdict], replies: Mapping[int, Reply], attempt: Attempts
 ) -> list[StageVerdict]:
     """Explain all wrong stages of a submission.
 
@@ -52,6 +54,8 @@ def explain(
         What was judged.
     replies : mapping of int to Reply
         What the submission answered to the exam, by the number of the batch.
+    attempt : Attempts
+        Tries each step, and keeps which failed.
 
     Returns
     -------
@@ -68,19 +72,24 @@ def explain(
     if not wanted:
         return list(verdicts)
     session.afresh()
-    return [_explained(session, plan, each, replies) if each.name in wanted else each for each in verdicts]
+    return [_explained(session, plan, each, replies, attempt) if each.name in wanted else each for each in verdicts]
 
 
-def _explained(session: Session, plan: Plan, verdict: StageVerdict, replies: Mapping[int, Reply]) -> StageVerdict:
+def _explained(
+    session: Session, plan: Plan, verdict: StageVerdict, replies: Mapping[int, Reply], attempt: Attempts
+) -> StageVerdict:
     number, check = _first_open(verdict)
     stage = plan.stage(verdict.name).facet(check.name)
-    found = [] if verdict.slip is not None else [*_facts(plan, stage, replies), *_probed(session, plan, stage)]
-    message, counterexample = _shown(session, plan, stage) or (check.message, check.counterexample)
+    found: list[str] = []
+    if verdict.slip is None:
+        found += attempt(f"reading facts off {stage.name}", _facts, plan, stage, replies) or []
+        found += attempt(f"probing {stage.name}", _probed, session, plan, stage) or []
+    shown = attempt(f"asking {stage.name} small cases", _shown, session, plan, stage)
+    message, example = shown or (check.message, check.counterexample)
     checks = list(verdict.checks)
-    checks[number] = replace(check, message=message, counterexample=counterexample)
-    before = verdict.message.removesuffix(check.message).strip()
-    words = " ".join(part for part in (before, *found, message) if part)
-    return replace(verdict, checks=tuple(checks), message=words)
+    checks[number] = replace(check, message=message, counterexample=example)
+    words = " ".join(part for part in (*found, message) if part)
+    return replace(verdict, checks=tuple(checks), message=swapped(verdict.message, check.message, words))
 
 
 def _first_open(verdict: StageVerdict) -> tuple[int, CheckVerdict]:
@@ -88,14 +97,14 @@ def _first_open(verdict: StageVerdict) -> tuple[int, CheckVerdict]:
     return next((number, check) for number, check in enumerate(verdict.checks) if not check.passed and not check.points)
 
 
-def _shown(session: Session, plan: Plan, stage: Stage) -> tuple[str, dict[str, Any] | None] | None:
+def _shown(session: Session, plan: Plan, stage: Stage) -> tuple[str, Example | None] | None:
     """Ask the gallery; return what is wrong with the simplest case that is, in words and as plain data."""
     task = plan.gallery_of(stage)
     reply = ask(session, plan, task)
     if reply.failure is not None or reply.right.all():
         return None
     index = int(np.argmin(reply.right))
-    return evidence.why(task, index, reply)[1], evidence.counterexample(task, index, reply)
+    return why(task, index, reply), counterexample(task, index, reply)
 
 
 def _facts(plan: Plan, stage: Stage, replies: Mapping[int, Reply]) -> list[str]:

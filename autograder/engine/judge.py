@@ -1,24 +1,22 @@
-"""Turn what a submission answered into verdicts: a pure function of the plan and the replies."""
+"""Turn what a submission answered into marks: a pure function of the plan and the replies.
+
+Every status and every point is final here; what comes later only adds words.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from autograder.diagnosis.equivalence import Convention, Rows, convention
-from autograder.diagnosis.recognise import CLOSE, COARSE, Recogniser
-from autograder.engine import evidence, follow
+from autograder.engine import follow
 from autograder.engine.collect import Absent, Collected, Reply
-from autograder.engine.groups import digest
+from autograder.engine.evidence import plainly, simplest
 from autograder.engine.normal import arrays_of
 from autograder.engine.plan import Plan, Task
 from autograder.problems.cases import Case
-from autograder.sandbox.frames import Kind, Outcome
+from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs
-from autograder.stages.base import Slip, Stage
+from autograder.stages.base import Stage
 from autograder.verdicts import CheckVerdict, StageStatus, StageVerdict
 
 # What a stage is called whose first failed check failed for this reason.
@@ -43,11 +41,10 @@ _INTERCHANGEABLE = ("residual", "jacobian", "information_matrix")  # stages that
 
 
 class Judge:
-    """Judges submissions of one run; remembers what known mistakes answer, so that it is worked out once."""
+    """Judges submissions of one run; remembers the expected rows of the graphs, so that they are worked out once."""
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
-        self._recognisers: dict[str, Recogniser] = {}
         self._rows: list[Rows] = []
 
     def judge(self, collected: Collected) -> tuple[StageVerdict, ...]:
@@ -60,10 +57,9 @@ class Judge:
     ) -> StageVerdict:
         points = self.plan.points[stage.name]
         replies = [collected.replies.get(task.batch) or _absent(task) for task in tasks]
-        remarks = evidence.remarks(tasks, replies)
         if accepted is not None and stage.name in _INTERCHANGEABLE:
             checks = [_passed(task, points) for task in tasks]
-            return _verdict(stage, points, checks, "passed", remarks=(accepted.remark, *remarks))
+            return _verdict(stage, points, checks, "passed", remarks=(accepted.remark,))
         judged = [_check(task, reply, points) for task, reply in zip(tasks, replies, strict=True)]
         checks = [check for check, _ in judged]
         status: StageStatus = next((reason for check, reason in judged if not check.passed), "passed")
@@ -72,16 +68,9 @@ class Judge:
                 self._followed(check, task, reply, points, collected.own_systems)
                 for check, task, reply in zip(checks, tasks, replies, strict=True)
             ]
-        if status == "passed":
-            return _verdict(stage, points, checks, status, remarks=remarks)
-        if status == "missing":
-            return _verdict(stage, points, checks, status, remarks=remarks)
         followed = all(check.passed or check.points for check in checks)
-        slip = None if followed else self._recognise(stage, tasks, replies)
-        earlier = "" if followed else self._earlier(stage, collected)
-        return _verdict(
-            stage, points, checks, status, remarks=remarks, slip=slip, group=digest(tasks, replies), lead=earlier
-        )
+        lead = "" if followed or status == "missing" else self._earlier(stage, collected)
+        return _verdict(stage, points, checks, status, lead=lead)
 
     def _earlier(self, stage: Stage, collected: Collected) -> str:
         """Say which earlier functions are wrong, to somebody whose step may be wrong only because of them."""
@@ -111,21 +100,7 @@ class Judge:
             points,
             earned=self.plan.follow_through,
             message=f"dx solves your own H dx = -b: the mistake is in an earlier function. {check.message}",
-            counterexample=check.counterexample,
         )
-
-    def _recognise(self, stage: Stage, tasks: tuple[Task, ...], replies: list[Reply]) -> Slip | None:
-        outputs = [reply.outputs for reply in replies if isinstance(reply.outputs, Outputs)]
-        if len(outputs) != len(tasks):
-            return None
-        known = self._recognisers.get(stage.name)
-        if known is None:
-            calls = [call for task in tasks for case in task.cases for call in stage.calls(case)]
-            starts = np.cumsum([0, *(len(task.asked) for task in tasks)])
-            same_as = np.concatenate([start + task.same_as for start, task in zip(starts, tasks, strict=False)])
-            known = self._recognisers.setdefault(stage.name, Recogniser(stage, calls, same_as))
-        coarse = any(Kind.FLOAT32_ARRAY in each.kinds.tobytes() for each in outputs)
-        return known.recognise(evidence.joined(outputs), COARSE if coarse else CLOSE)
 
     def _convention(self, collected: Collected) -> Convention | None:
         """Find one convention that explains f, J and Omega of every case, where one of them is not as expected."""
@@ -172,32 +147,25 @@ def _verdict(
     checks: list[CheckVerdict],
     status: StageStatus,
     remarks: tuple[str, ...] = (),
-    slip: Slip | None = None,
-    group: str = "",
     lead: str = "",
 ) -> StageVerdict:
     first = next((check for check in checks if not check.passed), None)
     score = points if first is None else round(sum(check.points for check in checks), 6)
     message = "" if first is None else first.message
-    message = " ".join(part for part in ("" if slip is None else slip.name, lead, message) if part)
+    message = " ".join(part for part in (lead, message) if part)
     return StageVerdict(
         name=stage.name,
         status="partial" if status != "passed" and score > 0 else status,
         score=score,
         max_score=points,
         bonus=stage.bonus,
-        slip=None if slip is None else slip.identifier,
         message=message,
-        hint="" if slip is None else slip.hint,
         remarks=remarks,
-        group=group,
         checks=tuple(checks),
     )
 
 
-def _check_verdict(
-    task: Task, points: float, earned: float = 0.0, message: str = "", counterexample: dict[str, Any] | None = None
-) -> CheckVerdict:
+def _check_verdict(task: Task, points: float, earned: float = 0.0, message: str = "") -> CheckVerdict:
     maximum = round(points * task.share, 6)
     return CheckVerdict(
         name=task.rung.name,
@@ -206,7 +174,6 @@ def _check_verdict(
         max_points=maximum,
         cases=len(task.cases),
         message=message,
-        counterexample=counterexample,
     )
 
 
@@ -223,13 +190,5 @@ def _check(task: Task, reply: Reply, points: float) -> tuple[CheckVerdict, Stage
         return _check_verdict(task, points, message=message), _STATUS_OF_FAILURE[reply.failure.reason]
     if reply.passed:
         return _passed(task, points), "passed"
-    index = simplest(task, ~reply.right)
-    outcome, message = evidence.why(task, index, reply)
-    shown = evidence.counterexample(task, index, reply)
-    return _check_verdict(task, points, message=message, counterexample=shown), _STATUS_OF_OUTCOME[outcome]
-
-
-def simplest(task: Task, chosen: NDArray[np.bool_]) -> int:
-    """Return the number of the simplest of the chosen cases."""
-    found = np.flatnonzero(chosen)
-    return int(found[np.argmin(task.order[found])])
+    outcome, message = plainly(task, simplest(task, ~reply.right), reply)
+    return _check_verdict(task, points, message=message), _STATUS_OF_OUTCOME[outcome]

@@ -45,7 +45,7 @@ class Ready(msgspec.Struct, frozen=True, tag=True):
 
 
 class Graded(msgspec.Struct, frozen=True, tag=True):
-    """What became of one submission."""
+    """What became of one submission; `flags` say to staff which words are missing beside its marks."""
 
     stages: tuple[StageVerdict, ...]
     notes: tuple[str, ...]
@@ -54,6 +54,7 @@ class Graded(msgspec.Struct, frozen=True, tag=True):
     written: dict[str, str]
     iterates: list[list[float]] | None
     confinement: str = ""
+    flags: tuple[str, ...] = ()
 
 
 class Trouble(msgspec.Struct, frozen=True, tag=True):

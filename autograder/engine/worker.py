@@ -13,8 +13,10 @@ from multiprocessing.connection import Connection, wait
 import msgspec
 
 from autograder.engine.answering import judge_answers, judge_written
+from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
 from autograder.engine.corpus import case_of, load_corpus
+from autograder.engine.describe import Describer
 from autograder.engine.explain import explain
 from autograder.engine.follow import STAGE
 from autograder.engine.judge import Judge
@@ -88,6 +90,7 @@ class Examiner:
         self.sandbox = sandbox
         self.plan = plan
         self.judge = Judge(plan)
+        self.describer = Describer(plan)
 
     def do(self, job: Grade) -> Answer:
         """Grade one submission; whatever goes wrong here is the grader's fault, never a zero.
@@ -118,7 +121,9 @@ class Examiner:
             if answers.NAME in self.plan.points:
                 step_is_right = any(verdict.name == STAGE and verdict.status == "passed" for verdict in stages)
                 stages.append(judge_answers(self.plan, sheet, given, session, step_is_right))
-            stages = explain(session, self.plan, stages, collected.replies)
+            attempt = Attempts()  # the marks are final: from here on only words are added
+            stages = self.describer.describe(collected, stages, attempt)
+            stages = attempt("explaining", explain, session, self.plan, stages, collected.replies, attempt) or stages
         texts = _texts(given, job.markdown_answers)
         if written.NAME in self.plan.points:
             stages.append(judge_written(self.plan.points[written.NAME], texts))
@@ -130,6 +135,7 @@ class Examiner:
             written=texts,
             iterates=None if given.iterates is None or given.iterates.ndim != 2 else given.iterates.tolist(),
             confinement=self.sandbox.confinement.level,
+            flags=attempt.flags,
         )
 
 

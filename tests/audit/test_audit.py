@@ -14,8 +14,10 @@ from autograder.audit.cases import KINDS, all_cases
 from autograder.audit.examine import Examined
 from autograder.audit.table import text
 from autograder.course import Course
+from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
 from autograder.engine.corpus import Corpus
+from autograder.engine.describe import Describer
 from autograder.engine.judge import Judge
 from autograder.engine.plan import make_plan
 from autograder.sandbox.frames import Source
@@ -69,11 +71,12 @@ def in_this_process(
 ) -> Examined:
     """Judge in this process, where a test can blunt a stage; submissions still run in their sandbox."""
     plan = make_plan(stages, {stage.name: course.points[stage.name] for stage in stages}, corpus)
-    judge, verdicts = Judge(plan), []
+    judge, describer, verdicts = Judge(plan), Describer(plan), []
     with Sandbox(plan.inputs, Limits(cpu_seconds=1.0)) as sandbox:
         for source in sources:
             with sandbox.open(source) as session:
-                verdicts.append(judge.judge(collect(session, plan)))
+                collected = collect(session, plan)
+                verdicts.append(describer.describe(collected, judge.judge(collected), Attempts()))
         return Examined(verdicts, sandbox.confinement.level)
 
 

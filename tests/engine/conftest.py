@@ -4,8 +4,10 @@ import inspect
 
 import pytest
 
+from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
 from autograder.engine.corpus import draw_corpus
+from autograder.engine.describe import Describer
 from autograder.engine.judge import Judge
 from autograder.engine.plan import make_plan
 from autograder.sandbox.frames import Source
@@ -26,13 +28,14 @@ def plan():
 @pytest.fixture(scope="session")
 def grade_source(plan):
     """A function that grades the text of a module: stage name to verdict."""
-    judge = Judge(plan)
+    judge, describer = Judge(plan), Describer(plan)
     with Sandbox(plan.inputs, Limits(cpu_seconds=0.5)) as sandbox:
 
         def grade(text, kind="module"):
             cells = [text] if kind == "module" else text
             with sandbox.open(Source(kind=kind, cells=cells, name="submission.py")) as session:
-                verdicts = judge.judge(collect(session, plan))
+                collected = collect(session, plan)
+                verdicts = describer.describe(collected, judge.judge(collected), Attempts())
             return {verdict.name: verdict for verdict in verdicts}
 
         yield grade

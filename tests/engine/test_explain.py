@@ -3,7 +3,9 @@
 import pytest
 
 from autograder.diagnosis.gallery import gallery
+from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
+from autograder.engine.describe import Describer
 from autograder.engine.explain import explain, wants_explanation
 from autograder.engine.judge import Judge
 from autograder.problems.plain import plain
@@ -17,16 +19,16 @@ from tests.engine.conftest import REFERENCE
 @pytest.fixture(scope="module")
 def explained(plan):
     """A function that grades a text and returns one stage, explained, and the case that shows it."""
-    judge = Judge(plan)
+    judge, describer = Judge(plan), Describer(plan)
     with Sandbox(plan.inputs, Limits(cpu_seconds=1.0)) as sandbox:
 
         def run(text, name):
             source = Source(kind="module", cells=[text], name="submission.py")
             with sandbox.open(source) as session:
                 collected = collect(session, plan)
-                judged = judge.judge(collected)
+                judged = describer.describe(collected, judge.judge(collected), Attempts())
                 assert any(wants_explanation(verdict) for verdict in judged if verdict.name == name)
-                verdicts = {each.name: each for each in explain(session, plan, judged, collected.replies)}
+                verdicts = {each.name: each for each in explain(session, plan, judged, collected.replies, Attempts())}
             shown = next(check for check in verdicts[name].checks if not check.passed).counterexample
             return verdicts[name], shown
 

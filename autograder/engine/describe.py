@@ -1,0 +1,133 @@
+"""Say more about wrong answers, with nothing asked again: the known mistake, the case that shows it, style.
+
+Everything here comes after the marks and can only add words; each step is an attempt.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from msgspec.structs import replace
+
+from autograder.diagnosis.recognise import CLOSE, COARSE, Given, Recogniser
+from autograder.engine.attempts import Attempts
+from autograder.engine.collect import Collected, Reply
+from autograder.engine.evidence import plainly, simplest
+from autograder.engine.groups import digest
+from autograder.engine.plan import Plan, Task
+from autograder.engine.showing import counterexample, why
+from autograder.sandbox.frames import Kind
+from autograder.sandbox.host import Outputs
+from autograder.stages.base import Slip, Stage
+from autograder.verdicts import CheckVerdict, StageVerdict
+
+_REMARKS = {
+    Kind.LIST: "returns a list; a numpy array is expected, and the list was converted.",
+    Kind.MATRIX: "returns np.matrix; a plain array is expected, and the matrix was converted.",
+    Kind.INTEGER_ARRAY: "returns integers; real numbers are expected, and they were converted.",
+    Kind.BOOL_ARRAY: "returns truth values; real numbers are expected, and they were converted.",
+    Kind.FLOAT32_ARRAY: "returns numbers of reduced precision; float64 is expected.",
+}
+
+
+class Describer:
+    """Describes submissions of one run; remembers what known mistakes answer, so that it is worked out once."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
+        self._recognisers: dict[str, Recogniser] = {}
+
+    def describe(self, collected: Collected, verdicts: Sequence[StageVerdict], attempt: Attempts) -> list[StageVerdict]:
+        """Describe every stage of one submission; points and status stay as they are."""
+        return [
+            self._stage(verdict, collected, attempt) if self.plan.has(verdict.name) else verdict for verdict in verdicts
+        ]
+
+    def _stage(self, verdict: StageVerdict, collected: Collected, attempt: Attempts) -> StageVerdict:
+        stage = self.plan.stage(verdict.name)
+        tasks = self.plan.tasks_of(stage)
+        replies = [reply for task in tasks if (reply := collected.replies.get(task.batch)) is not None]
+        if len(replies) != len(tasks):
+            return verdict
+        style = attempt(f"remarking on {stage.name}", remarks, tasks, replies) or ()
+        verdict = replace(verdict, remarks=(*verdict.remarks, *style))
+        if verdict.status in {"passed", "missing"}:
+            return verdict
+        verdict = _shown(verdict, tasks, replies, attempt)
+        group = attempt(f"grouping {stage.name}", digest, tasks, replies) or ""
+        followed = all(check.passed or check.points for check in verdict.checks)
+        slip = None if followed else attempt(f"naming the mistake in {stage.name}", self._slip, stage, tasks, replies)
+        if slip is None:
+            return replace(verdict, group=group)
+        words = f"{slip.name} {verdict.message}".strip()
+        return replace(verdict, group=group, slip=slip.identifier, hint=slip.hint, message=words)
+
+    def _slip(self, stage: Stage, tasks: Sequence[Task], replies: Sequence[Reply]) -> Slip | None:
+        outputs = [reply.outputs for reply in replies if isinstance(reply.outputs, Outputs)]
+        if len(outputs) != len(tasks):
+            return None
+        known = self._recognisers.get(stage.name)
+        if known is None:
+            calls = [call for task in tasks for case in task.cases for call in stage.calls(case)]
+            starts = np.cumsum([0, *(len(task.asked) for task in tasks)])
+            same_as = np.concatenate([start + task.same_as for start, task in zip(starts, tasks, strict=False)])
+            known = self._recognisers.setdefault(stage.name, Recogniser(stage, calls, same_as))
+        coarse = any(Kind.FLOAT32_ARRAY in each.kinds.tobytes() for each in outputs)
+        return known.recognise(_joined(outputs), COARSE if coarse else CLOSE)
+
+
+def _joined(outputs: Sequence[Outputs]) -> Given:
+    """Lay the batches of one stage end to end."""
+    sizes = np.cumsum([0, *(len(each.data) for each in outputs)])
+    offsets = [each.offsets[:-1] + start for each, start in zip(outputs, sizes[:-1], strict=True)]
+    return Given(
+        outcome=np.concatenate([each.outcome for each in outputs]),
+        shapes=[shape for each in outputs for shape in each.shapes],
+        offsets=np.concatenate([*offsets, sizes[-1:]]),
+        data=np.concatenate([each.data for each in outputs]),
+    )
+
+
+def _shown(verdict: StageVerdict, tasks: Sequence[Task], replies: Sequence[Reply], attempt: Attempts) -> StageVerdict:
+    """Put into every failed check, and into the message, what is wrong with the simplest case that is."""
+    checks, message = list(verdict.checks), verdict.message
+    for number, (check, task, reply) in enumerate(zip(verdict.checks, tasks, replies, strict=True)):
+        if check.passed or reply.failure is not None:
+            continue
+        found = attempt(f"showing a case of {verdict.name}", _case, check, task, reply)
+        if found is not None:
+            checks[number] = found
+            message = swapped(message, check.message, found.message)
+    return replace(verdict, checks=tuple(checks), message=message)
+
+
+def _case(check: CheckVerdict, task: Task, reply: Reply) -> CheckVerdict:
+    index = simplest(task, ~reply.right)
+    sentence = swapped(check.message, plainly(task, index, reply)[1], why(task, index, reply))
+    return replace(check, message=sentence, counterexample=counterexample(task, index, reply))
+
+
+def swapped(text: str, old: str, new: str) -> str:
+    """Put other words in the place of those that a text ends with."""
+    return text.removesuffix(old) + new if old and text.endswith(old) else text
+
+
+def remarks(tasks: Sequence[Task], replies: Sequence[Reply]) -> tuple[str, ...]:
+    """Remark on style, at no cost: lists, columns, np.matrix, integers, arguments changed in place."""
+    found: dict[str, None] = {}
+    for task, reply in zip(tasks, replies, strict=True):
+        outputs = reply.outputs
+        if not isinstance(outputs, Outputs):
+            continue
+        function = task.stage.function
+        met = set(outputs.kinds.tobytes()) - ({Kind.BOOL_ARRAY} if task.stage.takes_truth else set())
+        for kind in sorted(met & _REMARKS.keys()):
+            found[f"{function} {_REMARKS[Kind(kind)]}"] = None
+        if outputs.reshaped:
+            found[
+                f"{function} returns a column or a row; a vector, shape (m,), is expected, and it was read as one."
+            ] = None
+        if outputs.mutated >= 0:
+            found[f"{function} changes its argument in place; work on a copy."] = None
+    return tuple(found)
