@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from autograder.problems.cases import Case
-from autograder.problems.core import GOLDEN
+from autograder.problems.irregular import GOLDEN
 from autograder.stages.base import Answers, Array, Slip, Stage
 from autograder.stages.catalogue import slips
 

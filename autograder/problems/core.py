@@ -1,8 +1,4 @@
-"""The fixed core of the ladders: hand-picked cases that show every known mistake under every seed.
-
-Real-valued data are made from a golden-ratio sequence: irregular digits that are the same on
-every machine, with no random generator.
-"""
+"""The fixed core of the ladders: hand-picked cases that show every known mistake under every seed."""
 
 from __future__ import annotations
 
@@ -13,19 +9,7 @@ import numpy as np
 from assignment.posegraph import PoseGraph, Ranging
 from autograder.problems.cases import Case
 from autograder.problems.families.worked_example import worked_example
-
-GOLDEN = 0.6180339887498949
-
-
-def jitter(count: int, salt: float = 0.0) -> np.ndarray:
-    """Spread `count` irregular numbers over (-0.5, 0.5).
-
-    Examples
-    --------
-    >>> jitter(3).round(3)
-    array([ 0.118, -0.264,  0.354])
-    """
-    return (np.arange(1, count + 1) * GOLDEN + salt) % 1.0 - 0.5
+from autograder.problems.irregular import GOLDEN, jitter
 
 
 def graph(
@@ -165,7 +149,7 @@ REAL_VALUED: tuple[Case, ...] = (
     _real(8, [(3, 4), (0, 1), (5, 4), (1, 2), (2, 3), (6, 2), (5, 6), (6, 7), (1, 5)], [3, 0], 0.4),
     _near(),
 )
-HUNDRED_POSES: tuple[Case, ...] = (_hundred(),)
+MANY_POSES: tuple[Case, ...] = (_hundred(),)
 
 
 def _system(J: np.ndarray, weights: np.ndarray, f: np.ndarray) -> Case:

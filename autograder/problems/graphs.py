@@ -10,7 +10,12 @@ import numpy as np
 from assignment.posegraph import PoseGraph
 
 MAX_CONDITION = 1e6
-MAX_STATE = 100.0
+MAX_STATE = 100.0  # [m]
+MAX_POSES = 100
+MAX_MEASUREMENT = 200.0  # [m]
+VARIANCES = (1e-5, 1e3)  # from, to [m^2]
+WEIGHTS = (1e-3, 1e5)  # from, to, where Omega is given [1/m^2]
+MAX_RESIDUAL = 1e3  # where f is given [m]
 
 
 def information(graph: PoseGraph) -> np.ndarray:
@@ -34,11 +39,36 @@ def information(graph: PoseGraph) -> np.ndarray:
 
 
 def well_posed(x: np.ndarray, graph: PoseGraph) -> bool:
-    """Whether a case keeps the bounds of the contract: cond(H) <= 1e6 and |x| <= 100.
+    """Whether a case keeps the bounds of the contract: cond(H) <= 1e6, |x| <= 100, and those of the graph.
 
     A graph with a connected part that has no prior has a singular H, so it breaks the first.
     """
-    return bool(np.abs(x).max() <= MAX_STATE and np.linalg.cond(information(graph)) <= MAX_CONDITION)
+    variances = np.concatenate([graph.edge_variances, graph.prior_variances])
+    return bool(
+        np.linalg.cond(information(graph)) <= MAX_CONDITION
+        and np.abs(x).max() <= MAX_STATE
+        and graph.n_poses <= MAX_POSES
+        and np.abs(graph.measurements).max() <= MAX_MEASUREMENT
+        and VARIANCES[0] <= variances.min()
+        and variances.max() <= VARIANCES[1]
+    )
+
+
+def tells(states: np.ndarray, graph: PoseGraph) -> bool:
+    """Whether two states to start from and a graph show what a step is worth.
+
+    The states differ by at least 1 m, the graph has a loop, and the minimum moves by at least 2 cm
+    when any measurement on a loop changes by 1 m: that is seen above all rounding where the
+    numbers of the case are below 1e4 once they are multiplied by the root of cond(H).
+    """
+    rows = loop_edges(graph)
+    if not rows or np.abs(states[0] - states[1]).max() < 1.0:
+        return False
+    inverse = np.linalg.inv(information(graph))
+    i, j = graph.edges[rows].T
+    moves = np.abs(inverse[:, i] - inverse[:, j]).max(axis=0) / graph.edge_variances[rows]
+    size = np.abs(states).max() + np.abs(graph.measurements).max()
+    return bool(moves.min() >= 0.02 and size * np.sqrt(np.linalg.cond(information(graph))) <= 1e4)
 
 
 def loop_edges(graph: PoseGraph) -> list[int]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from autograder.problems import core
+from autograder.problems import core, wide
 from autograder.problems.cases import Case
 
 
@@ -64,37 +64,37 @@ GRAPHS = Ladder(
         ),
         Rung(
             "several_loops",
-            "several loops: interior, backward and doubled edges in any order",
-            0.25,
-            core.SEVERAL_LOOPS,
+            "several loops: interior, backward and doubled edges in any order, also without a walk",
+            0.24,
+            core.SEVERAL_LOOPS + wide.WITHOUT_A_WALK,
             reason="only the list of edges is unusual here, so that a mistake about it is seen by itself.",
         ),
         Rung(
             "priors",
-            "priors on other poses, two priors, means that are not 0",
+            "any number of priors on any poses, in any order, and parts that only their own prior holds",
             0.2,
-            core.PRIORS,
-            reason="only the priors are unusual here, so that a mistake about them is seen by itself.",
+            core.PRIORS + wide.PARTS_AND_PRIORS,
+            reason="the priors and what they hold are unusual here, the numbers are not.",
         ),
         Rung(
             "variances",
             "variances that differ by powers of ten",
             0.15,
-            core.VARIANCES,
+            core.VARIANCES + wide.FAR_VARIANCES,
             reason="mistakes about weights stand out by powers of ten, far above every tolerance.",
         ),
         Rung(
             "real_valued",
-            "real numbers, far from dead reckoning",
+            "real numbers: states far out, near the minimum and almost there",
             0.2,
-            core.REAL_VALUED,
+            core.REAL_VALUED + wide.WIDE_VALUES,
             reason="nice numbers cannot show rounding; these do, and single precision far from the origin.",
         ),
         Rung(
-            "hundred_poses",
-            "one graph of 100 poses",
-            0.0,
-            core.HUNDRED_POSES,
+            "many_poses",
+            "graphs of 10 to 100 poses",
+            0.02,
+            wide.MANY_POSES + core.MANY_POSES,
             reason="code that is made for few poses, or that needs seconds for many, is wrong here.",
         ),
     ),
@@ -114,7 +114,7 @@ MATRICES = Ladder(
             "unequal_weights",
             "weights that differ by powers of ten",
             0.2,
-            core.UNEQUAL_WEIGHTS,
+            core.UNEQUAL_WEIGHTS + wide.WIDE_WEIGHTS,
             reason="mistakes about Omega stand out by powers of ten, far above every tolerance.",
         ),
         Rung(
@@ -126,9 +126,9 @@ MATRICES = Ladder(
         ),
         Rung(
             "dense",
-            "any real J and f, also ones that no graph has",
+            "any real J and f, also ones that no graph has, large and small, with more columns than rows",
             0.25,
-            core.DENSE,
+            core.DENSE + wide.WIDE_RESIDUALS + wide.FEWER_ROWS,
             reason="code that relies on the pattern of J in pose graphs is wrong here.",
         ),
         Rung(
@@ -144,8 +144,8 @@ MATRICES = Ladder(
 RANGINGS = Ladder(
     "rangings",
     (
-        Rung("distances", "distances to a beacon beside the line", 0.5, core.RANGES),
-        Rung("derivatives", "how these distances change with x", 0.5, core.RANGES),
+        Rung("distances", "distances to a beacon beside the line", 0.5, core.RANGES + wide.FAR_RANGES),
+        Rung("derivatives", "how these distances change with x", 0.5, core.RANGES + wide.FAR_RANGES),
     ),
 )
 
@@ -168,10 +168,10 @@ LOOPS = Ladder(
         ),
         Rung(
             "loops_in_graphs",
-            "a loop inside a longer walk, edges in any direction and order",
+            "a loop inside any graph, with any priors and numbers",
             0.5,
-            core.INNER_LOOPS,
-            reason="the loop has to be found in a longer walk, where 0 to n - 1 is wrong.",
+            core.INNER_LOOPS + wide.WIDE_LOOPS,
+            reason="the loop has to be found in a larger graph, where 0 to n - 1 is wrong.",
         ),
     ),
 )

@@ -11,8 +11,10 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn, SearchStrategy
 
 from autograder.problems.cases import Case
+from autograder.problems.chance import numbers
 from autograder.problems.core import graph as graph_of
-from autograder.problems.strategies import chain, numbers, rangings, system
+from autograder.problems.drawn_systems import rangings, system
+from autograder.problems.strategies import chain
 
 _small = st.integers(-3, 3).map(float)
 _sixty_fourths = st.integers(-99, 99).map(lambda k: k / 64)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from assignment.posegraph import PoseGraph
+from autograder.problems import graphs
 from autograder.problems.conclusion import choices
 from autograder.problems.ladders import GRAPHS
 from autograder.problems.problem import Problem
@@ -176,10 +177,21 @@ def _counted() -> dict[str, Any]:
 
 
 @cache
-def _graded() -> dict[str, int]:
-    """Find the sizes of the graphs that are judged: the fixed cases hold the smallest and the largest."""
+def _graded() -> dict[str, str]:
+    """Say how far the cases go: the fixed ones hold the smallest and the largest graph, the bounds hold for all."""
     sizes = [case[1].n_poses for rung in GRAPHS.rungs for case in rung.core]
-    return {"fewest": min(sizes), "most": max(sizes)}
+    bounds = {
+        "fewest": min(sizes),
+        "most": max(sizes),
+        "measured": graphs.MAX_MEASUREMENT,
+        "state": graphs.MAX_STATE,
+        "surest": graphs.VARIANCES[0],
+        "least_sure": graphs.VARIANCES[1],
+        "lightest": graphs.WEIGHTS[0],
+        "heaviest": graphs.WEIGHTS[1],
+        "residual": graphs.MAX_RESIDUAL,
+    }
+    return {name: np.format_float_positional(bound, trim="-") for name, bound in bounds.items()}
 
 
 def _sparsity(graph: PoseGraph) -> dict[str, int]:

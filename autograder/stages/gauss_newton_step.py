@@ -16,6 +16,7 @@ from autograder.stages.wording import number, vector
 from reference_solution import slam1d
 
 BACKWARD_ERROR = 1e-7
+WEAK = 0.011  # [1/m^2] added to ||H||: a guard of 1e-9 on its diagonal costs nothing where all weights are small
 
 
 @dataclass(frozen=True)
@@ -23,8 +24,8 @@ class Systems:
     """All systems H dx = -b of a batch in one sparse table.
 
     Entry t of row r is `values[t]` times dx at `columns[t]`; rows begin at `row_starts`. `steps`
-    says where each dx lies; `H_norm` is the row-sum norm of each H, and `b_scale` the size of the
-    terms that each b adds up.
+    says where each dx lies; `H_norm` is the row-sum norm of each H, `b_scale` the size of the
+    terms that each b adds up, and `slack` by how much more than others a case may err.
     """
 
     values: Array
@@ -33,6 +34,7 @@ class Systems:
     b: Array
     H_norm: Array
     b_scale: Array
+    slack: Array
     steps: Batch
 
 
@@ -44,6 +46,9 @@ class GaussNewtonStep(Stage):
     adds up, not of their sum: at the minimum b is 0, and the rounding in it is not. A stable solver reaches about
     1e-16; an explicit inverse loses a factor of at most cond(H) <= 1e6; central differences for J
     give about 1e-8. All stay below 1e-7. Rounding dx to four decimals gives about 1e-5.
+
+    Central differences with h = 1e-6 err by the rounding of f over h, 1e-9 for every 4 m that a row adds
+    up: so the bound grows with the numbers of the case, to 5e-7 at 400 m. A guard H + 1e-9 I costs nothing either.
     """
 
     name = function = "gauss_newton_step"
@@ -58,7 +63,7 @@ class GaussNewtonStep(Stage):
         "priors": 0.2,
         "variances": 0.15,
         "real_valued": 0.15,
-        "hundred_poses": 0.05,
+        "many_poses": 0.05,
     }
 
     def expected(self, x: Array, graph: PoseGraph) -> tuple[Array, ...]:
@@ -83,6 +88,7 @@ class GaussNewtonStep(Stage):
             row_starts=np.searchsorted(rows, np.arange(ends[-1])),
             b=np.concatenate([b for _, b in systems]),
             H_norm=np.array([np.abs(H).sum(axis=1).max() for H, _ in systems]),
+            slack=np.array([1.0 + float(_reach(x, graph).max()) / 100.0 for x, graph in cases]),
             b_scale=np.array([_b_scale(x, graph) for x, graph in cases]),
             steps=Batch(
                 shapes=[(size,) for size in sizes],
@@ -101,7 +107,7 @@ class GaussNewtonStep(Stage):
     def judge(self, prepared: Systems, answers: Answers, again: Answers | None = None) -> NDArray[np.bool_]:
         """Compare every backward error with the bound."""
         dx, usable = aligned(prepared.steps, answers)
-        return usable & (backward_errors(prepared, dx) <= BACKWARD_ERROR)
+        return usable & (backward_errors(prepared, dx) <= BACKWARD_ERROR * prepared.slack)
 
     def explain(self, case: Case, got: tuple[Array, ...]) -> str:
         """Show what dx leaves of the equations, in the row where it leaves most."""
@@ -123,13 +129,17 @@ def _system(x: Array, graph: PoseGraph) -> tuple[Array, Array]:
 
 def _b_scale(x: Array, graph: PoseGraph) -> float:
     """Return the size of the terms of b, and a millionth of what they would be if f did not cancel."""
-    f = np.abs(slam1d.residual(x, graph))
+    size = np.abs(slam1d.residual(x, graph)) + 1e-6 * _reach(x, graph)
+    terms = np.abs(slam1d.jacobian(x, graph)).T @ slam1d.information_matrix(graph) @ size
+    return float(terms.max())
+
+
+def _reach(x: Array, graph: PoseGraph) -> Array:
+    """Return how large the numbers are that each row of f adds up [m]."""
     i, j = graph.edges.T
     between = np.abs(x[i]) + np.abs(graph.measurements) + np.abs(x[j])
     prior = np.abs(x[graph.priors]) + np.abs(graph.prior_means)
-    size = f + 1e-6 * np.concatenate([between, prior])
-    terms = np.abs(slam1d.jacobian(x, graph)).T @ slam1d.information_matrix(graph) @ size
-    return float(terms.max())
+    return np.concatenate([between, prior])
 
 
 def backward_errors(prepared: Systems, dx: Array) -> Array:
@@ -138,7 +148,7 @@ def backward_errors(prepared: Systems, dx: Array) -> Array:
         products = prepared.values * dx[prepared.columns]
         left = np.abs(np.add.reduceat(products, prepared.row_starts) + prepared.b)
         starts = prepared.steps.starts
-        scale = prepared.H_norm * np.maximum.reduceat(np.abs(dx), starts) + prepared.b_scale
+        scale = (prepared.H_norm + WEAK) * np.maximum.reduceat(np.abs(dx), starts) + prepared.b_scale
         worst = np.maximum.reduceat(left, starts)
         return np.where(scale > 0, worst / scale, worst)
 

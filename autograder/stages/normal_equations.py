@@ -32,14 +32,14 @@ class NormalEquations(ArrayStage):
         return [(n, n), (n,)]
 
     def tolerance(self, J: Array, omega: Array, f: Array) -> tuple[Array, ...]:
-        """Allow 1e-9 of |J|^T Omega |J| and |J|^T Omega |f|, the bounds of rounding in these sums.
+        """Allow 1e-9 of the largest entry of |J|^T Omega |J| and of |J|^T Omega |f|, which bound the rounding.
 
-        A millionth of the largest entry's share is added, so that a sum that is 0 only because all
-        its terms are 0 may carry noise from a solver.
+        One bound for all entries, also where H is 0: noise from a solver and a guard such as
+        H + 1e-9 I move a step by less than rounding does.
         """
         size = np.abs(J).T @ omega
         H, b = size @ np.abs(J), size @ np.abs(f)
-        return 1e-9 * (H + 1e-6 * H.max(initial=0.0)), 1e-9 * (b + 1e-6 * b.max(initial=0.0))
+        return np.full(1, 1.1e-9 * (1.0 + H.max(initial=0.0))), np.full(1, 1.1e-9 * b.max(initial=0.0))
 
     def explain(self, case: Case, got: tuple[Array, ...]) -> str:
         """Name the first wrong entry of H, or the whole of b."""

@@ -27,7 +27,7 @@ class Residual(ArrayStage):
         "priors": 0.2,
         "variances": 0.05,
         "real_valued": 0.2,
-        "hundred_poses": 0.05,
+        "many_poses": 0.05,
     }
 
     def expected(self, x: Array, graph: PoseGraph) -> tuple[Array, ...]:

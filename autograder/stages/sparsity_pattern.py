@@ -30,7 +30,7 @@ class SparsityPattern(ArrayStage):
         "priors": 0.2,
         "variances": 0.05,
         "real_valued": 0.1,
-        "hundred_poses": 0.1,
+        "many_poses": 0.1,
     }
 
     def calls(self, case: Case) -> list[Case]:

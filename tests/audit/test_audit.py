@@ -124,7 +124,7 @@ def test_a_stage_that_accepts_everything_is_a_miss(monkeypatch: pytest.MonkeyPat
 
 def test_an_exam_of_nice_numbers_is_blunt(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without the rungs of real numbers and of a hundred poses, rounding is not seen, and the audit says it."""
-    kept = tuple(rung for rung in Residual.ladder.rungs if rung.name not in ("real_valued", "hundred_poses"))
+    kept = tuple(rung for rung in Residual.ladder.rungs if rung.name not in ("real_valued", "many_poses"))
     course = Course(stages=("residual",))
     assert not faults(audited("residual_rounded_to_4_decimals", course=course))
     monkeypatch.setattr(Residual, "ladder", replace(Residual.ladder, rungs=kept))
