@@ -54,23 +54,22 @@ def examine(
         follow_through=course.follow_through,
     )
     found: dict[int, tuple[StageVerdict, ...]] = {}
-    late: list[int] = []
+    late: set[int] = set()
 
-    def keep(index: int, answer: Answer) -> None:
+    def keep(index: int, answer: Answer) -> Grade | None:
         if isinstance(answer, Trouble):
             raise SandboxError(f"{sources[index].name} could not be judged: {answer.message}")
-        if answer.ran_out and index not in late:
-            late.append(index)
-            return
+        if answer.unsure and index not in late:
+            late.add(index)  # it ran out of time by the clock alone, and is run once more
+            return Grade(sources[index], alone=True)
         if answer.flags:
             raise SandboxError(f"{sources[index].name} could not be explained: {' '.join(answer.flags)}")
         found[index] = answer.stages
         on_done(len(found), len(sources), sources[index].name)
+        return None
 
     with LocalPool(lambda: msgspec.msgpack.encode(orders), workers or default_workers()) as pool:
         assert pool.confinement is not None  # entering the pool waits for it
         level = pool.confinement.level
         pool.run([(index, Grade(source)) for index, source in enumerate(sources)], keep)
-        for index in sorted(late):  # what ran out of time is run once more, alone on the machine
-            pool.run([(index, Grade(sources[index], alone=True))], keep)
     return Examined([found[index] for index in range(len(sources))], level)

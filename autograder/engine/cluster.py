@@ -21,7 +21,7 @@ import msgspec
 from autograder.engine import remote
 from autograder.engine.members import Member, Members, connect
 from autograder.engine.messages import Answer, Grade, Graded, Ready, Trouble, decode_message
-from autograder.engine.pool import GIVEN_UP, MAX_LOSSES
+from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Done
 
 DEPTH = 2  # tasks a worker has: one that runs and one that waits, so that it is never idle
 LOOK_SECONDS = 0.5  # between looks at which workers there are
@@ -33,7 +33,7 @@ class _Round:
     """The jobs of one call of `run`: still to give, lost once, given."""
 
     fresh: deque[tuple[int, Grade]]
-    done: Callable[[int, Answer], None]
+    done: Done
     suspects: deque[tuple[int, Grade]] = field(default_factory=deque)
     given: dict[int, tuple[int, Grade, Any]] = field(default_factory=dict)  # by task
     losses: dict[int, int] = field(default_factory=dict)  # by job
@@ -46,7 +46,13 @@ class _Round:
         if self.losses[number] < MAX_LOSSES:
             self.suspects.append((number, job))
         else:
-            self.done(number, GIVEN_UP)
+            self.finish(number, GIVEN_UP)
+
+    def finish(self, number: int, answer: Answer) -> None:
+        """Hand over an answer; a job that comes back goes to the end."""
+        again = self.done(number, answer)
+        if again is not None:
+            self.fresh.append((number, again))
 
 
 @dataclass
@@ -72,6 +78,7 @@ class Cluster:
     address: str
     least: str
     confinement: Ready | None = None
+    has_a_processor_each: bool = False  # nobody knows what else runs on those machines
     _ended: SimpleQueue[tuple[str, int]] = field(default_factory=SimpleQueue)
     _tasks: Iterator[int] = field(default_factory=itertools.count)
 
@@ -95,7 +102,7 @@ class Cluster:
         """Let the workers end their fork servers, and leave the cluster as it was."""
         self._members.close()
 
-    def run(self, jobs: Iterable[tuple[int, Grade]], done: Callable[[int, Answer], None]) -> None:
+    def run(self, jobs: Iterable[tuple[int, Grade]], done: Done) -> None:
         """Run all jobs; what a lost worker had is run again, once."""
         now = _Round(deque(jobs), done)
         looked = 0.0
@@ -144,7 +151,7 @@ class Cluster:
                 self._members.greet(member)  # it was born again at the same address, or lost its fork server
         else:
             del now.given[task]
-            now.done(number, answer)
+            now.finish(number, answer)
 
 
 def _answer(future: Any) -> Answer:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
@@ -15,7 +15,9 @@ from autograder.engine.plan import Bundle, Plan, Task
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Failure, Loaded, Outputs, Session
 
-LATE = {"timeout", "budget"}  # reasons of a failure that another run, alone on the machine, may not have
+LATE = {"timeout", "budget"}  # reasons of a failure that are about time
+TOGETHER = 1 / 8  # of the time of a check, for all checks of a function at once; right answers take less
+ONE_CASE = 1 / 10  # of the time of a check, for one simple case
 
 
 @dataclass(frozen=True)
@@ -64,18 +66,20 @@ class Collected:
     loaded: Loaded
     replies: dict[int, Reply] = field(default_factory=dict)
     own_systems: dict[str, follow.Systems] | None = None
-    late: bool = False
+    sure: bool = True
 
     @property
-    def ran_out(self) -> bool:
-        """Whether anything ran out of time: such a submission is run once more, alone."""
-        failures = [reply.failure for reply in self.replies.values()]
-        late = any(failure is not None and failure.reason in LATE for failure in failures)
-        return self.late or late or any(note.status == "timeout" for note in self.loaded.notes)
+    def unsure(self) -> bool:
+        """Whether anything ran out of time by the clock alone: such a submission is run once more."""
+        failures = [reply.failure for reply in self.replies.values() if isinstance(reply.failure, Failure)]
+        return not self.sure or any(failure.reason in LATE and not failure.sure for failure in failures)
 
 
-def collect(session: Session, plan: Plan, *, together: bool = True, to_the_end: bool = True) -> Collected:
+def collect(session: Session, plan: Plan, *, alone: bool = False) -> Collected:
     """Load the submission and run every check; a stage that hangs or dies costs only itself.
+
+    What used up its computing time has run out of time, however busy the machine is. What ran out
+    by the clock alone is left to a run that confirms it, and so is everything after it.
 
     Parameters
     ----------
@@ -83,34 +87,56 @@ def collect(session: Session, plan: Plan, *, together: bool = True, to_the_end: 
         The submission.
     plan : Plan
         The exam.
-    together : bool
-        Ask the checks of a function at once, until that fails: then each has the whole time limit for itself.
-    to_the_end : bool
-        Go on after something ran out of time; False leaves the rest to the run that confirms it.
+    alone : bool
+        Nothing else runs on this processor: every check has its own time, and the clock is believed.
     """
-    collected = Collected(session.load())
+    collected = Collected(session.load(), sure=session.sure)
+    hung: set[str] = set()
     for stage, _ in plan.stages:
-        if not to_the_end and collected.ran_out:
-            break
-        if stage.name == follow.STAGE:
+        if stage.name == follow.STAGE and (alone or not collected.unsure):
             collected.own_systems = _own_systems(session, plan, collected)
         for bundle in plan.bundles_of(stage):
-            if bundle.tasks[0].stage.function not in collected.loaded.functions:
-                continue
-            found = _bundle(session, plan, bundle) if together else {}
-            if isinstance(found, Failure):
-                together, collected.late = False, not to_the_end and found.reason in LATE
-                found = {}
-            if not to_the_end and collected.ran_out:
+            if collected.unsure and not alone:
                 return collected
-            collected.replies.update(found or _one_by_one(session, plan, bundle))
+            if stage.function not in collected.loaded.functions:
+                continue
+            found = _doubted(session, plan, bundle, hung) or ({} if alone else _bundle(session, plan, bundle))
+            if isinstance(found, Failure):
+                collected.sure = collected.sure and (found.sure or found.reason not in LATE)
+                if collected.unsure:
+                    return collected
+                found = {}
+            found = found or _one_by_one(session, plan, bundle)
+            collected.replies.update(found)
+            if any(reply.failure is not None and reply.failure.reason in LATE for reply in found.values()):
+                hung.add(stage.function)
     return collected
 
 
+def _doubted(session: Session, plan: Plan, bundle: Bundle, hung: set[str]) -> dict[int, Reply]:
+    """Give a function one simple case where it, or what it calls, ran out of time before; {} where that ends in time.
+
+    Whoever hangs is not waited for at full length again.
+    """
+    task = bundle.tasks[0]
+    function = task.stage.function
+    blamed = sorted(hung & {function, *(follow.EARLIER if function == follow.STAGE else ())})
+    if not blamed:
+        return {}
+    case = task.cases[int(np.argmin(task.order))]
+    outputs = session.call(plan.batch(task.stage, task.stage.calls(case)[:1]), ONE_CASE)
+    if not isinstance(outputs, Failure) or outputs.reason not in LATE:
+        return {}
+    words = (
+        f"{outputs.message}, on one simple case; it was asked no more because {' and '.join(blamed)} had hung before"
+    )
+    return {each.batch: Reply(replace(outputs, message=words)) for each in bundle.tasks}
+
+
 def _bundle(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply] | Failure:
-    """Ask several checks at once; where that fails, it has not counted."""
+    """Ask several checks at once, in a part of the time of one; where that fails, it has not counted."""
     before = session.left
-    outputs = session.run(bundle.batch)
+    outputs = session.run(bundle.batch, TOGETHER)
     if isinstance(outputs, Failure):
         session.restore(before)
         return outputs
@@ -123,7 +149,7 @@ def _bundle(session: Session, plan: Plan, bundle: Bundle) -> dict[int, Reply] | 
     calls = [call for each in rounds if each is not None for call in each]
     if not calls:
         return {task.batch: _judged(task, part, None) for task, part in zip(bundle.tasks, parts, strict=True)}
-    again = session.call(plan.second_round(bundle.tasks, calls))
+    again = session.call(plan.second_round(bundle.tasks, calls), TOGETHER)
     if isinstance(again, Failure):
         session.restore(before)
         return again

@@ -143,7 +143,7 @@ class _Grading:
                 for index, submission in enumerate(self.submissions)
                 if submission.id not in self.results
             ]
-            self._confirm(pool, self._first_pass(pool, jobs))
+            self._run(pool, jobs)
 
     def _recall_the_locks(self) -> None:
         """Where nothing was run, the weakest level under which the results came about is that of the run."""
@@ -170,23 +170,22 @@ class _Grading:
             )
         )
 
-    def _first_pass(self, pool: Pool, jobs: list[tuple[int, Grade]]) -> list[int]:
-        """Grade; return what ran out of time."""
-        late: list[int] = []
+    def _run(self, pool: Pool, jobs: list[tuple[int, Grade]]) -> None:
+        """Grade; what ran out of time by the clock alone is confirmed, once, with a processor to itself."""
+        late: set[int] = set()
+        goes_on = pool.has_a_processor_each
 
-        def done(index: int, answer: Answer) -> None:
-            if isinstance(answer, Graded) and answer.ran_out:
-                late.append(index)
-            else:
-                self._done(index, answer)
+        def done(index: int, answer: Answer) -> Grade | None:
+            if isinstance(answer, Graded) and answer.unsure and index not in late:
+                late.add(index)
+                return self._job(self.submissions[index], alone=True) if goes_on else None
+            self._done(index, answer)
+            return None
 
         pool.run(jobs, done)
-        return sorted(late)
-
-    def _confirm(self, pool: Pool, late: list[int]) -> None:
-        """Run those that ran out of time once more, each alone on the machine; that verdict stands."""
-        for index in late:
-            pool.run([(index, self._job(self.submissions[index], alone=True))], self._done)
+        if not goes_on:
+            for index in sorted(late):
+                pool.run([(index, self._job(self.submissions[index], alone=True))], done)
 
     def _job(self, submission: Submission, *, alone: bool = False) -> Grade:
         assert submission.source is not None  # a rejected upload has no job

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import msgspec
 
 from autograder.engine.messages import Answer, Grade, Orders, Ready
-from autograder.engine.pool import GIVEN_UP, MAX_LOSSES
+from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Done
 from autograder.engine.worker import Examiner, limits_of, plan_of
 from autograder.errors import SandboxLost
 from autograder.sandbox.host import Sandbox, Server
@@ -26,6 +26,8 @@ class Here:
     confinement : Ready or None
         The level of the fork server.
     """
+
+    has_a_processor_each = True
 
     def __init__(self, orders: Callable[[], bytes]) -> None:
         self.orders = orders
@@ -55,10 +57,12 @@ class Here:
                 held.close()
         self._sandbox = self._server = None
 
-    def run(self, jobs: Iterable[tuple[int, Grade]], done: Callable[[int, Answer], None]) -> None:
+    def run(self, jobs: Iterable[tuple[int, Grade]], done: Done) -> None:
         """Run all jobs; call `done` as each ends."""
         for number, job in jobs:
-            done(number, self._answer(job))
+            again: Grade | None = job
+            while again is not None:
+                again = done(number, self._answer(again))
 
     def _answer(self, job: Grade) -> Answer:
         for _ in range(MAX_LOSSES):

@@ -16,7 +16,7 @@ from typing import Any
 import msgspec
 
 from autograder.engine.messages import Answer, Grade, Ready, Trouble, decode_message
-from autograder.engine.pool import GIVEN_UP, MAX_LOSSES
+from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Done
 from autograder.errors import SandboxError
 from autograder.sandbox.server import ONE_THREAD
 
@@ -86,7 +86,12 @@ class LocalPool:
                 each.process.join()
         self._workers.clear()
 
-    def run(self, jobs: Iterable[tuple[int, Grade]], done: Callable[[int, Answer], None]) -> None:
+    @property
+    def has_a_processor_each(self) -> bool:
+        """Whether there are no more workers than processors."""
+        return self.size <= default_workers()
+
+    def run(self, jobs: Iterable[tuple[int, Grade]], done: Done) -> None:
         """Run all jobs, at most one a worker at a time; call `done` as each ends, in any order."""
         waiting = deque(jobs)
         known = dict(waiting)
@@ -102,8 +107,12 @@ class LocalPool:
                     if losses[job] < MAX_LOSSES:
                         waiting.appendleft((job, known[job]))
                         continue
-                done(job, answer or GIVEN_UP)
-                unfinished -= 1
+                again = done(job, answer or GIVEN_UP)
+                if again is None:
+                    unfinished -= 1
+                else:
+                    known[job] = again
+                    waiting.append((job, again))
 
     def _listen(self) -> Iterator[tuple[int, Answer | None]]:
         """Wait for what workers say; give every answer with its job, and None for the job of one that is lost."""

@@ -28,7 +28,8 @@ class Grade(msgspec.Struct, frozen=True):
 
     `sheet` is the variant on record: its identifier, and its graph and iterates as a plain case;
     None stands for the worked example. `markdown_answers` is what a notebook says under the written questions.
-    Once something runs out of time, nothing more is asked, unless the submission runs `alone` to confirm that.
+    Once something runs out of time by the clock alone, nothing more is asked, unless the submission runs `alone` on
+    its processor to confirm that.
     """
 
     source: Source
@@ -45,11 +46,14 @@ class Ready(msgspec.Struct, frozen=True, tag=True):
 
 
 class Graded(msgspec.Struct, frozen=True, tag=True):
-    """What became of one submission; `flags` say to staff which words are missing beside its marks."""
+    """What became of one submission.
+
+    `unsure` where it ran out of time by the clock alone; `flags` say to staff which words are missing beside its marks.
+    """
 
     stages: tuple[StageVerdict, ...]
     notes: tuple[str, ...]
-    ran_out: bool
+    unsure: bool
     seconds: float
     written: dict[str, str]
     iterates: list[list[float]] | None

@@ -12,6 +12,10 @@ MAX_LOSSES = 2  # a submission whose worker is lost so often is given up
 GIVEN_UP = Trouble("The worker process was lost twice while this submission ran.", lost=True)
 
 
+Done = Callable[[int, Answer], Grade | None]
+"""Takes the answer to a job, and may return another job of the same number, which is run before all is done."""
+
+
 class Pool(Protocol):
     """Workers that all hold the same orders; a context manager.
 
@@ -23,13 +27,17 @@ class Pool(Protocol):
 
     confinement: Ready | None
 
+    @property
+    def has_a_processor_each(self) -> bool:
+        """Whether every worker has a processor to itself, as far as this grader goes."""
+
     def __enter__(self) -> Self:
         """Start or find at least one worker, and wait until it is ready."""
 
     def __exit__(self, *_: object) -> None:
         """Close."""
 
-    def run(self, jobs: Iterable[tuple[int, Grade]], done: Callable[[int, Answer], None]) -> None:
+    def run(self, jobs: Iterable[tuple[int, Grade]], done: Done) -> None:
         """Run all jobs; call `done` as each ends, in any order; what a lost worker had is run again."""
 
     def close(self) -> None:

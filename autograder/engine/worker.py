@@ -113,9 +113,9 @@ class Examiner:
         began = time.perf_counter()
         sheet = _sheet(job)
         with self.sandbox.open(job.source) as session:
-            collected = collect(session, self.plan, together=not job.alone, to_the_end=job.alone)
-            if collected.ran_out and not job.alone:
-                return Graded((), (), ran_out=True, seconds=time.perf_counter() - began, written={}, iterates=None)
+            collected = collect(session, self.plan, alone=job.alone)
+            if collected.unsure and not job.alone:
+                return Graded((), (), unsure=True, seconds=time.perf_counter() - began, written={}, iterates=None)
             stages = list(self.judge.judge(collected))
             given = collected.loaded.answers
             if answers.NAME in self.plan.points:
@@ -130,7 +130,7 @@ class Examiner:
         return Graded(
             stages=tuple(stages),
             notes=tuple(f"{note.where}: {note.message}" for note in collected.loaded.notes),
-            ran_out=collected.ran_out,
+            unsure=collected.unsure,
             seconds=time.perf_counter() - began,
             written=texts,
             iterates=None if given.iterates is None or given.iterates.ndim != 2 else given.iterates.tolist(),

@@ -21,11 +21,15 @@ Reason = Literal["timeout", "memory", "died", "output", "violation", "budget"]
 
 
 class Ended(Exception):  # noqa: N818  # an outcome of a run, caught by the session
-    """The child cannot be used any more."""
+    """The child cannot be used any more.
 
-    def __init__(self, reason: Reason) -> None:
+    `sure` is False where it ran out of time by the clock alone: a busy machine may be to blame.
+    """
+
+    def __init__(self, reason: Reason, *, sure: bool = True) -> None:
         super().__init__(reason)
         self.reason: Reason = reason
+        self.sure = sure
 
 
 @dataclass
@@ -117,10 +121,10 @@ class Channel:
     def _left(self, cpu_seconds: float, cpu: float, wall: float) -> float:
         budget = min(self._budget.cpu - cpu, self._budget.wall - wall)
         if budget <= 0:
-            raise Ended("budget")
+            raise Ended("budget", sure=self._budget.cpu <= cpu)
         left = min(cpu_seconds - cpu, WALL_FACTOR * cpu_seconds - wall)
         if left <= 0:
-            raise Ended("timeout")
+            raise Ended("timeout", sure=cpu_seconds <= cpu)
         return max(_SHORTEST_WAIT, min(left, budget))
 
     def _cpu(self) -> float:

@@ -93,10 +93,14 @@ class Loaded:
 
 @dataclass(frozen=True)
 class Failure:
-    """Why a batch gave no values at all; the message is for the student and holds no measured time."""
+    """Why a batch gave no values at all; the message is for the student and holds no measured time.
+
+    `sure` is False where time ran out by the clock alone, and computing time was left.
+    """
 
     reason: Literal["timeout", "memory", "died", "output", "violation", "budget"]
     message: str
+    sure: bool = True
 
 
 @dataclass(frozen=True)

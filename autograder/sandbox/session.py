@@ -48,6 +48,7 @@ class Session:
         self._skip: dict[tuple[int, int], tuple[int, Note]] = {}  # (cell, number) -> line and note
         self._stop: tuple[int, int] | None = None
         self._given_up: Failure | None = None
+        self.sure = True  # False once a statement ran out of time by the clock alone
 
     def load(self) -> Loaded:
         """Execute the submission, statement by statement, and say what it defines."""
@@ -64,15 +65,15 @@ class Session:
         """Give back what an attempt used that does not count."""
         self._budget = replace(budget)
 
-    def run(self, batch: int) -> Outputs | Failure:
-        """Make the calls of a batch of the inputs."""
+    def run(self, batch: int, share: float = 1.0) -> Outputs | Failure:
+        """Make the calls of a batch of the inputs, in a share of the time of a check."""
         nonce = secrets.randbits(62)
-        return self._ask(frames.Run(nonce, batch), nonce, self._expected[batch])
+        return self._ask(frames.Run(nonce, batch), nonce, self._expected[batch], share)
 
-    def call(self, batch: Batch) -> Outputs | Failure:
+    def call(self, batch: Batch, share: float = 1.0) -> Outputs | Failure:
         """Make the calls of a batch that comes with the request; integers index the objects of the inputs."""
         nonce = secrets.randbits(62)
-        return self._ask(frames.Call(nonce, batch), nonce, Expected.of(batch))
+        return self._ask(frames.Call(nonce, batch), nonce, Expected.of(batch), share)
 
     def fresh(self) -> None:
         """Throw the child away: the next call happens in one that has seen no call before."""
@@ -95,7 +96,9 @@ class Session:
     ) -> None:
         self.close()
 
-    def _ask(self, request: frames.Run | frames.Call, nonce: int, expected: Expected) -> Outputs | Failure:
+    def _ask(
+        self, request: frames.Run | frames.Call, nonce: int, expected: Expected, share: float
+    ) -> Outputs | Failure:
         if self._channel is None:
             self._start()
         if self._channel is None:
@@ -103,7 +106,7 @@ class Session:
         try:
             self._channel.require_silence()
             self._channel.begin(frames.pack(request), nonce)
-            reply = self._channel.reply(expected.bound, self._limits.cpu_seconds)
+            reply = self._channel.reply(expected.bound, share * self._limits.cpu_seconds)
             self._channel.require_silence()
             if isinstance(reply, frames.BatchReport):
                 return read_outputs(reply, expected)
@@ -111,7 +114,7 @@ class Session:
                 raise Ended("memory")
             raise Violation("a reply is not of the kind that was asked for")
         except (Ended, Violation) as end:
-            return self._failure(end)
+            return self._failure(end, share)
 
     def _start(self) -> None:
         """Fork and load, leaving out one more statement each time that the child does not survive one."""
@@ -159,6 +162,7 @@ class Session:
         if at is None or at.cell >= len(self._source.cells):
             self._given_up = failure
             return
+        self.sure = self.sure and failure.sure
         key = (at.cell, at.number)
         message = failure.message
         if failure.reason == "budget" or self._stop is not None or key in self._skip:
@@ -181,9 +185,10 @@ class Session:
         placed.sort(key=lambda entry: entry[0])
         return Loaded(frozenset(report.functions), tuple(note for _, note in placed), read_answers(report.answers))
 
-    def _failure(self, end: Ended | Violation) -> Failure:
+    def _failure(self, end: Ended | Violation, share: float = 1.0) -> Failure:
         """Put into words why the child ended, and make sure that it has."""
         limits = self._limits
+        seconds = share * limits.cpu_seconds
         reason = end.reason if isinstance(end, Ended) else "violation"
         died = self._discard(ask=True)
         if reason == "died":
@@ -192,14 +197,13 @@ class Session:
             else:
                 return Failure("died", died)
         words = {
-            "timeout": f"it took longer than {limits.cpu_seconds:g} s of computing, or "
-            f"{WALL_FACTOR * limits.cpu_seconds:g} s of waiting",
+            "timeout": f"it took longer than {seconds:g} s of computing, or {WALL_FACTOR * seconds:g} s of waiting",
             "memory": f"it needed more than {limits.memory_mib} MiB of memory",
             "output": f"it printed more than {limits.output_bytes / 2**20:g} MiB",
             "violation": "it wrote to the grader's own channel instead of returning a value",
             "budget": f"all of the submission together took longer than {limits.total_cpu:g} s of computing",
         }
-        return Failure(reason, words[reason])
+        return Failure(reason, words[reason], end.sure if isinstance(end, Ended) else True)
 
     def _discard(self, *, ask: bool = False) -> str:
         channel, self._channel = self._channel, None

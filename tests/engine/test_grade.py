@@ -16,6 +16,7 @@ import pytest
 from autograder.course import Course
 from autograder.engine.grade import Settings, grade
 from autograder.engine.store import Store
+from autograder.engine.worker import Examiner
 from autograder.errors import SandboxError, UsageError
 from autograder.intake.submission import collect
 from autograder.problems.conclusion import RIGHT, choices
@@ -205,17 +206,82 @@ def test_ctrl_c_keeps_what_is_done(uploads, tmp_path):
     assert len(list((tmp_path / "out/results").glob("*.json"))) == 5
 
 
-def test_a_time_out_is_confirmed_alone(uploads, tmp_path):
-    """What ran out of time beside others is run once more by itself before it is believed."""
-    (uploads / "slow.py").write_text("import time\n\ndef residual(x, graph):\n    while True:\n        pass\n")
+def _asked(monkeypatch, text, tmp_path, settings=SETTINGS):
+    """Grade one submission in this process; return its stages by name, and for each run whether it was alone."""
+    runs = []
+    do = Examiner.do
+
+    def seen(examiner, job):
+        runs.append(job.alone)
+        return do(examiner, job)
+
+    monkeypatch.setattr(Examiner, "do", seen)
+    (tmp_path / "slow.py").write_text(text)
+    run = grade(collect([tmp_path / "slow.py"]), COURSE, settings, tmp_path / "out")
+    return {stage.name: stage for stage in run.results[0].stages}, runs
+
+
+def test_computing_time_that_is_used_up_needs_no_second_run(tmp_path, monkeypatch):
+    """An endless loop has run out of time, however busy the machine was; what calls it is not waited for in full."""
+    loop = "\n\ndef residual(x, graph):\n    while True:\n        pass\n"
+    began = time.perf_counter()
+    stages, runs = _asked(monkeypatch, REFERENCE + loop, tmp_path)
+    assert runs == [False]
+    assert stages["residual"].status == "timeout"
+    assert "0.3 s of computing" in stages["residual"].message
+    assert "0.03 s of computing" in stages["gauss_newton_step"].message
+    assert "residual had hung before" in stages["gauss_newton_step"].message
+    assert stages["jacobian"].status == "passed"
+    assert time.perf_counter() - began < 60  # a bound for a hang of the test itself, no claim of speed
+
+
+def test_time_by_the_clock_alone_is_confirmed_once(tmp_path, monkeypatch):
+    """Whoever sleeps uses no computing time; that is believed after a second run with a processor of its own."""
+    nap = "import time\n\ndef residual(x, graph):\n    time.sleep(100)\n"
+    stages, runs = _asked(monkeypatch, REFERENCE + nap, tmp_path, replace(SETTINGS, time_limit=0.1))
+    assert runs == [False, True]
+    assert stages["residual"].status == "timeout"
+    assert stages["jacobian"].status == "passed"
+
+
+def test_a_second_run_does_not_hold_up_the_others(uploads, tmp_path):
+    """While a sleeper is confirmed, workers that have a processor go on with the rest of the class."""
+    (uploads / "a_sleeper.py").write_text(REFERENCE + "import time\n\ndef residual(x, graph):\n    time.sleep(100)\n")
     order = []
-    run = grade(
-        collect([uploads]), COURSE, SETTINGS, tmp_path / "out", lambda progress: order.append(progress.submission)
-    )
-    assert order[-1] == "slow"
-    slow = run.results[-1]
-    assert slow.stages[0].status == "timeout"
-    assert "0.3 s" in slow.stages[0].message
+    run = grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out", lambda at: order.append(at.submission))
+    assert order[-1] == "a_sleeper"
+    assert run.results[0].stages[0].status == "timeout"
+
+
+BUSY = "import time\nend = time.monotonic() + 300\nwhile time.monotonic() < end:\n    pass\n"
+HONEST = """
+
+def _slowly(function):
+    def called(*arguments):
+        for _ in range(29):
+            function(*arguments)
+        return function(*arguments)
+    return called
+
+
+for _name in ("residual", "jacobian", "information_matrix", "normal_equations"):
+    globals()[_name] = _slowly(globals()[_name])
+"""
+
+
+@pytest.mark.slow
+def test_honest_slow_code_keeps_its_points_on_a_busy_machine(tmp_path):
+    """Thirty times the work of the reference, beside eight processes that want every processor, costs nothing."""
+    (tmp_path / "slow.py").write_text(REFERENCE + HONEST)
+    others = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range(8)]
+    try:
+        run = grade(collect([tmp_path / "slow.py"]), COURSE, Settings(examples=60), tmp_path / "out")
+    finally:
+        for each in others:
+            each.kill()
+            each.wait()
+    lost = [stage.name for stage in run.results[0].stages if stage.status != "passed"]
+    assert lost == ["answers", "written"]
 
 
 def test_nothing_of_the_run_is_left(uploads, tmp_path):
