@@ -114,3 +114,16 @@ def nudged(graph: PoseGraph, row: int) -> PoseGraph:
     """
     value = float(graph.measurements[row])
     return with_measurement(graph, row, round(value + (1.0 if math.floor(value) % 2 == 0 else -1.0), 12))
+
+
+def agreeing(graph: PoseGraph, state: np.ndarray) -> PoseGraph:
+    """Return a copy of the graph whose measurements and prior means all agree with one state.
+
+    Examples
+    --------
+    >>> graph = agreeing(PoseGraph(2, [(0, 1)], [1], [1], [1], [0], [1]), np.array([3.0, 5.0]))
+    >>> graph.measurements, graph.prior_means
+    (array([2.]), array([5.]))
+    """
+    i, j = graph.edges.T
+    return dataclasses.replace(graph, measurements=state[j] - state[i], prior_means=state[graph.priors])

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from autograder.stages.base import Stage
+from autograder.stages.second_step import SecondStep
 
 
 @dataclass
@@ -33,8 +34,16 @@ def answer(function, calls, parts=1) -> Answers:
 
 def verdicts(stage: Stage, cases, function) -> np.ndarray:
     """Judge a trusted function on cases, second round included."""
+    return stage.judge(*_rounds(stage, cases, function))
+
+
+def properties(stage: SecondStep, case, function) -> np.ndarray:
+    """Say which of the four properties hold for a trusted step on one loop."""
+    return stage.properties(*_rounds(stage, [case], function))[:, 0]
+
+
+def _rounds(stage, cases, function):
     prepared = stage.prepare(cases)
     answers = answer(function, [call for case in cases for call in stage.calls(case)], stage.parts)
     calls = stage.follow_up(prepared, answers)
-    again = None if calls is None else answer(function, calls, stage.parts)
-    return stage.judge(prepared, answers, again)
+    return prepared, answers, None if calls is None else answer(function, calls, stage.parts)

@@ -1,12 +1,14 @@
 """What every stage holds: right answers pass everywhere, wrong ones fail, points add up."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from autograder.problems.draw import draw_ladder
 from autograder.stages.catalogue import all_stages
 from reference_solution import slam1d
-from tests.stages.answering import verdicts
+from tests.stages.answering import properties, verdicts
 
 STAGES = {stage.name: stage for stage in all_stages()}
 GRAPH_STAGES = ["residual", "jacobian", "information_matrix", "gauss_newton_step"]
@@ -165,12 +167,28 @@ FORGERIES = {
     "Levenberg damping": damped,
     "constant step": lambda _, graph: np.ones(graph.n_poses),
     "sign flipped": lambda x, graph: -slam1d.gauss_newton_step(x, graph),
+    "sum of the measurements minus x": lambda x, graph: graph.measurements.sum() - x,
+    "mean of the measurements minus x": lambda x, graph: graph.measurements.mean() - x,
+    "weighted sum of the measurements minus x": lambda x, graph: graph.measurements @ (1 / graph.edge_variances) - x,
+    "a place for every weighted sum minus x": lambda x, graph: (
+        np.outer(np.arange(1, graph.n_poses + 1), 1 / graph.edge_variances) @ graph.measurements - x
+    ),
+    "dead reckoning along another tree minus x": lambda x, graph: backwards(graph).dead_reckoning() - x,
+    "a target from the hash minus x": lambda x, graph: (
+        np.random.default_rng(np.frombuffer(graph.measurements.tobytes(), np.uint32)).normal(size=graph.n_poses) - x
+    ),
 }
+
+
+def backwards(graph):
+    """Return the same graph with its edges in the reverse order: dead reckoning takes the last edges first."""
+    turned = {name: getattr(graph, name)[::-1] for name in ("edges", "measurements", "edge_variances")}
+    return dataclasses.replace(graph, **turned)
 
 
 @pytest.mark.parametrize("name", FORGERIES)
 def test_forged_steps_earn_nothing(cases, name):
-    """No loop accepts a step that is zero, constant or blind to the measurements; no check accepts a damped one.
+    """No loop accepts a step that is zero, constant, blind or only moving with measurements; no check a damped one.
 
     1e-3 on the diagonal is a guard, and no damping, on the few loops whose weights are all above 1e3.
     """
@@ -179,6 +197,16 @@ def test_forged_steps_earn_nothing(cases, name):
         sure = np.array([1.0 / graph.edge_variances.max() > 1e3 for _, graph in found])
         assert not right[~sure].any() if name == "Levenberg damping" else not right.any()
         assert not right.all()
+
+
+def test_a_target_that_agrees_on_some_loops_only_fails_every_check(cases):
+    """Dead reckoning and the sum of all: the sum is 0 where the edges run round the loop, and not elsewhere."""
+
+    def step(x, graph):
+        return graph.dead_reckoning() + graph.measurements.sum() - x
+
+    for _, found in rungs(cases, STAGES["second_step"]):
+        assert not verdicts(STAGES["second_step"], found, step).all()
 
 
 def test_a_stateful_step_earns_nothing(cases):
@@ -197,6 +225,43 @@ def test_a_consistently_weighted_wrong_step_passes_the_second_step_only(cases):
         assert verdicts(STAGES["second_step"], found, unweighted).all()
     single = cases["graphs"]["single_loops"]
     assert not verdicts(STAGES["gauss_newton_step"], single, unweighted).all()
+
+
+@pytest.mark.parametrize("ratio", [1e2, 1e4])
+def test_other_weights_pass_however_little_a_measurement_then_says(cases, ratio):
+    """A measurement with a ten-thousandth of the weight still moves the point, though by less than a millimetre."""
+
+    def weighted(x, graph):
+        root = np.where(np.arange(graph.n_factors) % 2 == 0, ratio**0.5, 1.0)[:, None]
+        J, f = slam1d.jacobian(x, graph), slam1d.residual(x, graph)
+        return np.linalg.lstsq(root * J, -root[:, 0] * f, rcond=None)[0]
+
+    for _, found in rungs(cases, STAGES["second_step"]):
+        assert verdicts(STAGES["second_step"], found, weighted).all()
+
+
+def test_all_four_properties_are_needed(cases):
+    """Each property is broken alone by some step, and the sentence is about that one."""
+    stage = STAGES["second_step"]
+
+    def swings(x, graph):
+        return 2.0 * slam1d.gauss_newton_step(x, graph)
+
+    for position, (step, words) in enumerate(
+        [
+            (swings, "the second step is"),
+            (lambda _, graph: np.zeros(graph.n_poses), "depends on the start"),
+            (FORGERIES["dead reckoning minus x"], "does not move when the measurement"),
+            (FORGERIES["sum of the measurements minus x"], "must be that state, whatever the weights"),
+        ]
+    ):
+        case = cases["loops"]["single_loops"][2]
+        x, graph = case[0][0], case[1]
+        answers = [step(*call) for call in stage.calls(case)]
+        hold = properties(stage, case, step)
+        assert not hold[position]
+        assert words in stage.explain(case, (*answers, step(x + answers[0], graph)))
+    assert properties(stage, case, slam1d.gauss_newton_step).all()
 
 
 @pytest.mark.parametrize("name", STAGES)
