@@ -7,6 +7,7 @@ PIP := $(PY) -m pip --disable-pip-version-check --no-input -q
 UV_VERSION := 0.13.9
 FRAMES ?= 1000000
 GUIDED_SECONDS ?= 60
+ANYTHING ?= 3000
 
 # What .venv was made for; when it was copied from elsewhere or for another Python, it is made anew.
 PLACE := $(CURDIR) $(PYTHON)
@@ -22,7 +23,7 @@ help:
 	@echo "make test    check format, lint and types, then run all tests"
 	@echo "make interop install nbgrader and Otter beside .venv and compare their marks with ours (network, ten minutes)"
 	@echo "make bench   measure the grader beside its floor and other graders, and a class of 1,000 (network, half an hour)"
-	@echo "make fuzz    throw a million random frames at the grader, then many fresh examples at the properties"
+	@echo "make fuzz    throw a million random frames and 3,000 odd submissions at the grader, then fresh examples at the properties"
 	@echo "make mutants change the reference everywhere, one place at a time: does the exam notice?"
 	@echo "make hostile print which attacks of the hostile corpus get through, with the locks and without"
 	@echo "make crashes kill workers, fork servers and the grader fifty times, and compare what they leave"
@@ -56,6 +57,8 @@ fuzz: $(VENV)/ready
 	@$(PY) tests/fuzz/frames.py --frames $(FRAMES)
 	@echo "--- frames: guided by coverage"
 	@$(PY) tests/fuzz/guided.py --seconds $(GUIDED_SECONDS)
+	@echo "--- values: submissions that return anything"
+	@$(PY) -m tests.fuzz.values --count $(ANYTHING)
 	@echo "--- property tests: fresh examples"
 	@$(PY) -m pytest -q --hypothesis-profile=fuzz -m "hypothesis and not slow"
 

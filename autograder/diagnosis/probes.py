@@ -80,7 +80,7 @@ def _reversed(function: str) -> Probe:
             order = np.r_[np.arange(len(graph.edges))[::-1], np.arange(len(graph.edges), graph.n_factors)]
             if function == "gauss_newton_step":
                 wanted = one
-            elif len(one) != graph.n_factors:
+            elif one.shape[:1] != (graph.n_factors,):
                 return ""
             else:
                 wanted = one[np.ix_(order, order)] if function == "information_matrix" and one.ndim == 2 else one[order]

@@ -68,6 +68,10 @@ class Collected:
     own_systems: dict[str, follow.Systems] | None = None
     sure: bool = True
 
+    def reply(self, task: Task) -> Reply:
+        """Return what came back for one check; a function that is not defined has answered that."""
+        return self.replies.get(task.batch) or Reply(Absent(f"{task.stage.function} is not defined in the submission."))
+
     @property
     def unsure(self) -> bool:
         """Whether anything ran out of time by the clock alone: such a submission is run once more."""

@@ -47,9 +47,7 @@ class Describer:
     def _stage(self, verdict: StageVerdict, collected: Collected, attempt: Attempts) -> StageVerdict:
         stage = self.plan.stage(verdict.name)
         tasks = self.plan.tasks_of(stage)
-        replies = [reply for task in tasks if (reply := collected.replies.get(task.batch)) is not None]
-        if len(replies) != len(tasks):
-            return verdict
+        replies = [collected.reply(task) for task in tasks]
         style = attempt(f"remarking on {stage.name}", remarks, tasks, replies) or ()
         verdict = replace(verdict, remarks=(*verdict.remarks, *style))
         if verdict.status in {"passed", "missing"}:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -17,6 +18,7 @@ from autograder.sandbox.host import Outputs
 from autograder.stages.base import Array, Stage
 from autograder.stages.wording import number
 
+_TOO_LARGE = re.compile(r"(?:value ([12]) of 2: )?(shape .*)")
 PARTS = {"normal_equations": ("H", "b"), "sparsity_pattern": ("J_mask", "H_mask")}
 
 
@@ -76,12 +78,14 @@ def _unusable(stage: Stage, call: Came) -> tuple[Outcome, str] | None:
     """Say why a call gave no usable numbers; None where it did."""
     function = f"{stage.function}(x + dx(x), graph)" if call.again else stage.function
     wanted = stage.shapes(*call.arguments)
+    whats = [f"{name} of {function}" if name else function for name in _names(stage)]
     if call.outcome is not Outcome.OK:
-        if call.outcome is Outcome.BAD_VALUE and call.reason.startswith("shape"):  # too large to be sent at all
-            return call.outcome, f"{function} returned {call.reason}, expected {' and '.join(map(str, wanted))}."
+        large = _TOO_LARGE.fullmatch(call.reason)
+        part = int(large[1] or 1) - 1 if large else 0
+        if call.outcome is Outcome.BAD_VALUE and large and part < stage.parts:  # too large to be sent at all
+            return call.outcome, f"{whats[part]} returned {large[2]}, expected {wanted[part]}."
         return call.outcome, _odd(function, call.outcome, call.reason)
-    for name, array, shape in zip(_names(stage), call.arrays, wanted, strict=True):
-        what = f"{name} of {function}" if name else function
+    for what, array, shape in zip(whats, call.arrays, wanted, strict=True):
         if array.shape != shape:
             return Outcome.BAD_VALUE, f"{what} returned shape {array.shape}, expected {shape}."
         if not np.isfinite(array).all():
@@ -94,11 +98,13 @@ def _odd(function: str, outcome: Outcome, reason: str) -> str:
     if outcome is Outcome.UNFINISHED:
         return f"{function} is unfinished: it raises NotImplementedError."
     if outcome is Outcome.FORBIDDEN:
-        return f"{function} uses the module {reason}, which is not allowed here; numpy is."
+        return f"{function} uses the module {reason or '(unknown)'}, which is not allowed here; numpy is."
     if outcome is Outcome.MEMORY:
         return f"{function} needs more memory than it is given."
     if outcome is Outcome.RAISED:
         return f"{function} raised {reason or 'an exception'}."
+    if ", expected" in reason:  # that a value is no pair, in the words of the child
+        return f"{function} returned {reason}."
     return f"{function} returned {reason or 'no numbers'}; expected an array of real numbers."
 
 

@@ -56,7 +56,7 @@ class Judge:
         self, stage: Stage, tasks: tuple[Task, ...], collected: Collected, accepted: Convention | None
     ) -> StageVerdict:
         points = self.plan.points[stage.name]
-        replies = [collected.replies.get(task.batch) or _absent(task) for task in tasks]
+        replies = [collected.reply(task) for task in tasks]
         if accepted is not None and stage.name in _INTERCHANGEABLE:
             checks = [_passed(task, points) for task in tasks]
             return _verdict(stage, points, checks, "passed", remarks=(accepted.remark,))
@@ -134,11 +134,6 @@ class Judge:
                 for case in task.cases:
                     self._rows.append(Rows(*(stage.expected(*stage.calls(case)[0])[0] for stage in stages)))
         return self._rows
-
-
-def _absent(task: Task) -> Reply:
-    """Stand in for a check whose function is not defined."""
-    return Reply(Absent(f"{task.stage.function} is not defined in the submission."))
 
 
 def _verdict(

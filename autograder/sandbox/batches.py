@@ -111,7 +111,7 @@ def call(plan: Plan, function: Callable[..., Any] | None, nonce: int) -> BatchRe
     values = len(plan.cases) * plan.parts
     if function is None:
         outcome = bytes([Outcome.UNFINISHED]) * len(plan.cases)
-        reasons = {0: "not defined"} if plan.cases else {}
+        reasons = {"not defined": array("i", range(len(plan.cases))).tobytes()} if plan.cases else {}
         return BatchReport(nonce, outcome, bytes(values), bytes(values), b"", b"", reasons, -1)
     gathered = _Gathered(plan)
     gathered.call(function)
@@ -122,7 +122,7 @@ def call(plan: Plan, function: Callable[..., Any] | None, nonce: int) -> BatchRe
         bytes(map(len, gathered.shapes)),
         array("q", chain.from_iterable(gathered.shapes)).tobytes(),
         b"".join(gathered.data),
-        gathered.reasons,
+        {reason: calls.tobytes() for reason, calls in gathered.reasons.items()},
         gathered.mutated,
     )
 
@@ -134,7 +134,7 @@ class _Gathered:
         self.kinds = bytearray(len(plan.cases) * plan.parts)  # zero is Kind.FLOAT_ARRAY
         self.shapes: list[tuple[int, ...]] = []
         self.data: list[bytes] = []
-        self.reasons: dict[int, str] = {}
+        self.reasons: dict[str, array[int]] = {}
         self.mutated = -1
 
     def call(self, function: Callable[..., Any]) -> None:  # noqa: PLR0912  # one loop for all forms of a call, for speed
@@ -209,8 +209,8 @@ class _Gathered:
         self.data.extend([b""] * parts)
         self.kinds[number * parts : (number + 1) * parts] = bytes([Kind.OTHER]) * parts
         self.outcome[number] = outcome
-        if len(self.reasons) < MAX_REASONS:
-            self.reasons[number] = reason
+        if reason in self.reasons or len(self.reasons) < MAX_REASONS:
+            self.reasons.setdefault(reason, array("i")).append(number)
 
 
 def _parts(value: Any, parts: int) -> list[Any]:

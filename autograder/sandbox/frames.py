@@ -16,7 +16,7 @@ from msgspec import Meta, Struct
 
 HEADER = struct.Struct("<I")
 MAX_DIMENSIONS = 8
-MAX_REASONS = 16
+MAX_REASONS = 64  # different ones, in one batch
 MAX_REASON = 300  # characters
 MAX_WRITTEN = 20_000  # characters of one written answer
 MAX_FUNCTIONS = 4096
@@ -199,7 +199,8 @@ class BatchReport(Frame, tag="results"):
     """The values of a batch, flat.
 
     `outcome` has a byte a case; `kinds` and `dimensions` have a byte a value; `sizes` (int64) holds
-    the shapes one after the other; `data` the float64 elements of all values.
+    the shapes one after the other; `data` the float64 elements of all values. `reasons` holds, for each of the
+    words that were said, the calls (int32) of which they were.
     """
 
     nonce: Nonce
@@ -208,7 +209,7 @@ class BatchReport(Frame, tag="results"):
     dimensions: bytes
     sizes: bytes
     data: bytes
-    reasons: Annotated[dict[Count, Annotated[str, Meta(max_length=MAX_REASON)]], Meta(max_length=MAX_REASONS)]
+    reasons: Annotated[dict[Annotated[str, Meta(max_length=MAX_REASON)], bytes], Meta(max_length=MAX_REASONS)]
     mutated: Ordinal
 
 
@@ -273,7 +274,7 @@ def reply_bound(batch: Batch) -> int:
     """Give the largest honest reply to a batch, in bytes, plus a little slack."""
     cases = len(batch.cases)
     values = cases * batch.parts
-    words = MAX_REASONS * (4 * MAX_REASON + 16)
+    words = min(cases, MAX_REASONS) * (4 * MAX_REASON + 16) + 4 * cases
     return values * (8 * batch.max_elements + 2 + 8 * MAX_DIMENSIONS) + cases + words + 1024
 
 

@@ -120,7 +120,7 @@ class Outputs:
     data : (total,) float64 array
         All elements, each value in C order. They may be infinite or NaN.
     reasons : dict of int to str
-        Words for at most 16 of the cases that are not OK.
+        Words for the cases that are not OK; a batch has a bounded number of different ones.
     mutated : int
         The first case whose input array the call changed in place, -1 if none.
     reshaped : bool
@@ -144,11 +144,23 @@ def read_outputs(report: BatchReport, expected: Expected) -> Outputs:
         raise Violation("a table is not of the length that it says")
     if int(offsets[-1]) * 8 != len(report.data):
         raise Violation("the data are not as long as the shapes say")
-    if any(case >= expected.cases for case in report.reasons):
-        raise Violation("a reason is given for a call that was not asked for")
     outcome, kinds = np.frombuffer(report.outcome, np.uint8), np.frombuffer(report.kinds, np.uint8)
-    reasons = {case: printable(text) for case, text in sorted(report.reasons.items())}
+    reasons = _reasons(report.reasons, expected.cases)
     return Outputs(outcome, kinds, shapes, offsets, np.frombuffer(report.data, "<f8"), reasons, report.mutated)
+
+
+def _reasons(said: dict[str, bytes], cases: int) -> dict[int, str]:
+    if sum(map(len, said.values())) > 4 * cases or any(len(calls) % 4 for calls in said.values()):
+        raise Violation("there are more reasons than calls")
+    found = {call: words for text, calls in said.items() for words in [printable(text)] for call in _numbers(calls)}
+    if found and not 0 <= min(found) <= max(found) < cases:
+        raise Violation("a reason is given for a call that was not asked for")
+    return dict(sorted(found.items()))
+
+
+def _numbers(calls: bytes) -> list[int]:
+    found: list[int] = np.frombuffer(calls, "<i4").tolist()
+    return found
 
 
 def _table(report: BatchReport, expected: Expected) -> Table:

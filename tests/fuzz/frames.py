@@ -55,7 +55,7 @@ _ODD = [
 _SIDES = (2).to_bytes(8, "little") * 3
 GOOD: list[list[Any]] = [
     ["results", 1, bytes(3), bytes(3), b"\1\1\1", _SIDES, bytes(48), {}, -1],
-    ["results", 1, b"\1\0\0", bytes(3), b"\0\1\1", _SIDES[:16], bytes(32), {0: "ValueError: x"}, 2],
+    ["results", 1, b"\1\0\0", bytes(3), b"\0\1\1", _SIDES[:16], bytes(32), {"ValueError: x": bytes(4)}, 2],
     ["loaded", 1, ["f", "g"], [["remark", 0, 3, "error", "x"]], ["answers", [2, 2], bytes(32), "a", None, "text", ""]],
     ["progress", 1, 0, 3, 12],
     ["hello", 0],

@@ -55,7 +55,10 @@ def honest(batch: Batch) -> list[Any]:
         bytes([frames.MAX_DIMENSIONS]) * values,
         b"".join(side.to_bytes(8, "little") for side in shape) * values,
         bytes(8 * batch.max_elements * values),
-        dict.fromkeys(range(min(cases, frames.MAX_REASONS)), "\U0001f600" * frames.MAX_REASON),
+        {
+            chr(0x1F600 + case) * frames.MAX_REASON: case.to_bytes(4, "little")
+            for case in range(min(cases, frames.MAX_REASONS))
+        },
         -1,
     ]
 
@@ -86,8 +89,8 @@ WRONG: dict[str, list[Any]] = {
     "too many functions": ["loaded", 1, ["f"] * 5000, [], NO_ANSWERS],
     "a shape of -5": ["loaded", 1, [], [], ["answers", [-5], b"", None, None, None, ""]],
     "a shape of nine sides": ["loaded", 1, [], [], ["answers", [1] * 9, b"", None, None, None, ""]],
-    "too many reasons": ["results", 1, b"", b"", b"", b"", b"", dict.fromkeys(range(17), ""), -1],
-    "a long reason": ["results", 1, b"", b"", b"", b"", b"", {0: "x" * 301}, -1],
+    "too many reasons": ["results", 1, b"", b"", b"", b"", b"", {str(number): b"" for number in range(65)}, -1],
+    "a long reason": ["results", 1, b"", b"", b"", b"", b"", {"x" * 301: bytes(4)}, -1],
     "a mutated case of -2": ["results", 1, b"", b"", b"", b"", b"", {}, -2],
 }  # fmt: skip  # a table reads best with one case a line
 
@@ -152,7 +155,7 @@ def test_a_report_that_fits_is_read() -> None:
         dimensions=b"\x01\x00",
         sizes=(2).to_bytes(8, "little"),
         data=bytes(16),
-        reasons={1: "bad\x1b[0m"},
+        reasons={"bad\x1b[0m": (1).to_bytes(4, "little")},
     )
     outputs = read_outputs(half, EXPECTED)
     assert outputs.shapes == [(2,), ()]
@@ -181,7 +184,9 @@ MISFITS: dict[str, dict[str, Any]] = {
     },
     "nine dimensions": {"dimensions": b"\x09\x00", "sizes": (1).to_bytes(8, "little") * 9, "data": bytes(16)},
     "a shape where nothing was returned": {"outcome": b"\x01\x01", "data": b""},
-    "a reason for no case": {"reasons": {2: "x"}},
+    "a reason for no case": {"reasons": {"x": (2).to_bytes(4, "little")}},
+    "half a reason": {"reasons": {"x": bytes(3)}},
+    "more reasons than cases": {"reasons": {"x": bytes(8), "y": bytes(4)}},
     "a change in no case": {"mutated": 2},
 }
 
@@ -201,7 +206,7 @@ def test_a_report_that_does_not_fit_is_a_violation(changes: dict[str, Any]) -> N
         st.one_of(st.binary(max_size=32), st.lists(st.integers(-1, 5), max_size=4).map(
             lambda sides: b"".join(side.to_bytes(8, "little", signed=True) for side in sides))),
         st.binary(max_size=64),
-        st.dictionaries(st.integers(0, 3), st.text(max_size=5), max_size=2),
+        st.dictionaries(st.text(max_size=5), st.binary(max_size=9), max_size=2),
         st.integers(-1, 3),
     )
 )  # fmt: skip  # the strategy of a whole report

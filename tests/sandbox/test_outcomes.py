@@ -68,10 +68,14 @@ def f(x, graph):
 
 
 def test_reasons_are_few(run: Run) -> None:
-    """At most sixteen cases of a batch come with words."""
-    outputs = run("def f(x, graph):\n    raise ValueError\n", cases=40)
+    """Every case comes with its words; of different ones a batch has 64."""
+    calls = "calls = 0\n\ndef f(x, graph):\n    global calls\n    calls += 1\n    raise ValueError(calls % {})\n"
+    outputs = run(calls.format(2), cases=100)
     assert isinstance(outputs, Outputs)
-    assert list(outputs.reasons) == list(range(16))
+    assert outputs.reasons == {case: f"ValueError: {1 - case % 2}" for case in range(100)}
+    outputs = run(calls.format(1000), cases=100)
+    assert isinstance(outputs, Outputs)
+    assert outputs.reasons == {case: f"ValueError: {case + 1}" for case in range(64)}
 
 
 def test_a_function_that_is_not_there_is_unfinished(run: Run) -> None:
@@ -80,7 +84,7 @@ def test_a_function_that_is_not_there_is_unfinished(run: Run) -> None:
         outputs = run(text, cases=3, parts=2)
         assert isinstance(outputs, Outputs)
         assert outputs.outcome.tolist() == [Outcome.UNFINISHED] * 3
-        assert outputs.reasons == {0: "not defined"}
+        assert outputs.reasons == dict.fromkeys(range(3), "not defined")
         assert outputs.shapes == [()] * 6
 
 

@@ -131,7 +131,9 @@ def test_a_wrong_style_equals_the_slips_that_it_names(path: Path) -> None:
     """Where a slip is named the outputs are the slip's; where a stage passes they are the reference's."""
     student = executed(path)
     for stage in FUNCTIONS:
-        _, slip, _ = verdict(path).stages.get(stage, ("", "", False))
+        status, slip, _ = verdict(path).stages.get(stage, ("", "", False))
+        if status == "missing" or (status and not slip):  # not there, or wrong in a way that has no name
+            continue
         entries = {entry.identifier: entry.function for entry in slips_of(stage)}
         model = entries.get(slip, getattr(slam1d, stage))
         for arguments in graph_pool.systems(2, 4) if stage == "normal_equations" else CASES:
