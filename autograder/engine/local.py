@@ -18,7 +18,7 @@ import msgspec
 from autograder.engine.messages import Answer, Grade, Ready, Trouble, decode_message
 from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Done
 from autograder.errors import SandboxError
-from autograder.sandbox.server import ONE_THREAD
+from autograder.sandbox.kernel import ONE_THREAD
 
 _MAIN = threading.main_thread()  # the only one that may set signal handlers
 MAX_STARTS = 4  # workers in a row that end before they are ready, before the run is given up

@@ -21,12 +21,11 @@ import msgspec
 from autograder.errors import SandboxError, SandboxLost
 from autograder.sandbox import forkserver, frames
 from autograder.sandbox.channel import WALL_FACTOR, Budget, Channel
+from autograder.sandbox.kernel import ONE_THREAD, kernel_settings
 
 _FOLDER = Path(__file__).resolve().parent
 _POSEGRAPH = _FOLDER.parent.parent / "assignment" / "posegraph.py"
 _START_SECONDS, _REPLY_SECONDS = 60.0, 30.0
-# One thread for numpy: a process a core is what keeps all of them busy, and a locked child may start no thread.
-ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OPENBLAS", "OMP", "MKL", "BLIS", "VECLIB_MAXIMUM", "NUMEXPR")}
 
 
 @dataclass(frozen=True)
@@ -108,7 +107,7 @@ class Server:
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.PIPE,
                 cwd="/",
-                env={"PYTHONHASHSEED": "0", "LC_ALL": "C.UTF-8", **ONE_THREAD},
+                env={"PYTHONHASHSEED": "0", "LC_ALL": "C.UTF-8", **kernel_settings(os.environ), **ONE_THREAD},
                 pass_fds=[theirs.fileno()],
                 start_new_session=True,  # Ctrl-C is the grader's to handle
             )
