@@ -10,6 +10,7 @@ from assignment.posegraph import PoseGraph, Ranging
 from autograder.engine.collect import Reply
 from autograder.engine.evidence import came, plainly
 from autograder.engine.plan import Task
+from autograder.engine.settle import settled
 from autograder.problems.plain import plain
 from autograder.sandbox.frames import Outcome
 
@@ -43,10 +44,10 @@ def counterexample(task: Task, index: int, reply: Reply) -> Example | None:
     names = _ARGUMENTS.get(function, ("x", "graph"))
     example: Example = {"function": function}
     example.update((name, _json(argument)) for name, argument in zip(names, call.arguments, strict=True))
-    expected = [_json(_settled(array)) for array in task.stage.expected(*call.arguments)]
+    expected = [_json(settled(array)) for array in task.stage.expected(*call.arguments)]
     example["expected"] = expected[0] if len(expected) == 1 else expected
     if call.outcome is Outcome.OK:
-        got = [_json(_settled(array)) for array in call.arrays]
+        got = [_json(settled(array)) for array in call.arrays]
         example["got"] = got[0] if len(got) == 1 else got
     else:
         example["got"] = _said(call.outcome, call.reason)
@@ -66,20 +67,6 @@ def _extent(argument: Any) -> tuple[int, ...]:
     if isinstance(argument, Ranging):
         return (len(argument.poses),)
     return tuple(argument.shape) or (0,)
-
-
-def _settled(array: Any) -> Any:
-    """Leave out of a result what a processor decides: keep ten digits, and 0 for what is noise beside the largest.
-
-    Examples
-    --------
-    >>> _settled(np.array([0.1 + 0.2, 3e-17, np.inf])).tolist()
-    [0.3, 0.0, inf]
-    """
-    numbers = np.asarray(array, dtype=np.float64)
-    noise = 1e-12 * np.abs(numbers[np.isfinite(numbers)]).max(initial=0.0)
-    kept = [0.0 if abs(number) < noise else float(f"{number:.9e}") for number in numbers.ravel().tolist()]
-    return np.array(kept).reshape(numbers.shape)
 
 
 def _json(argument: Any) -> Any:

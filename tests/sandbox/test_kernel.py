@@ -1,4 +1,4 @@
-"""How numpy computes is the same in the grader, its workers and the locked processes, whatever the machine is set to."""
+"""How numpy computes is the same in the grader, its workers and the locked processes, however a machine is set."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def test_a_fork_server_gets_the_settings_of_the_grader(monkeypatch: pytest.Monke
     assert found["NPY_DISABLE_CPU_FEATURES"] == "AVX2 FMA3"
     assert found["OPENBLAS_NUM_THREADS"] == "1"
     ours = {"PYTHONHASHSEED", "LC_ALL", "OPENBLAS_CORETYPE", "NPY_DISABLE_CPU_FEATURES", *ONE_THREAD}
-    assert set(found) - {name for name in kernel_settings(os.environ)} <= ours
+    assert set(found) - set(kernel_settings(os.environ)) <= ours
     assert not {"MKL_CBWR", "LD_PRELOAD", "PATH", "HOME"} & set(found)
 
 
@@ -94,9 +94,7 @@ def _graded(folder: Path, name: str, program: list[str], kernel: str | None) -> 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("grader", "workers"), [("Haswell", "Haswell"), ("Prescott", "Prescott"), ("Haswell", "Prescott"), (None, "Nehalem")]
-)
+@pytest.mark.parametrize(("grader", "workers"), [("Haswell", "Prescott"), ("Prescott", "Haswell"), (None, "Nehalem")])
 def test_marks_and_words_are_the_same_under_every_kernel(
     marks: tuple[Path, dict[str, bytes]], grader: str | None, workers: str
 ) -> None:
