@@ -82,17 +82,18 @@ def build_object(data: GraphData | RangingData, posegraph: ModuleType, shared: S
 def prepare(batch: Batch, objects: Sequence[Any], posegraph: ModuleType, shared: Shared | None = None) -> Plan:
     """Make a batch ready to be called."""
     shared = {} if shared is None else shared
-    cases = tuple(_case([_argument(each, objects, posegraph, shared) for each in case]) for case in batch.cases)
+    cases = tuple(_case([argument(each, objects, posegraph, shared) for each in case]) for case in batch.cases)
     return Plan(batch.function, batch.parts, batch.max_elements, cases)
 
 
-def _argument(argument: Argument, objects: Sequence[Any], posegraph: ModuleType, shared: Shared) -> Any:
-    if isinstance(argument, int):
-        return objects[argument]
-    if isinstance(argument, Array):
-        value = np.frombuffer(argument.data, "<f8").reshape(argument.shape)
-        return shared.setdefault((str(argument.shape), argument.data), value)
-    return build_object(argument, posegraph, shared)
+def argument(data: Argument, objects: Sequence[Any], posegraph: ModuleType, shared: Shared) -> Any:
+    """Build one argument of a call: an object by its number, an array, or an object from its bytes."""
+    if isinstance(data, int):
+        return objects[data]
+    if isinstance(data, Array):
+        value = np.frombuffer(data.data, "<f8").reshape(data.shape)
+        return shared.setdefault((str(data.shape), data.data), value)
+    return build_object(data, posegraph, shared)
 
 
 def _case(arguments: list[Any]) -> _Case:

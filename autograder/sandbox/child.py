@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any, NoReturn
 
 from . import batches, canary, frames
-from .frames import Call, Load, Probe, Run, Trouble
+from .frames import Call, Load, Probe, Replace, Run, Trouble
 from .lockdown import Lock
 from .submission import Submission
 
@@ -61,6 +61,8 @@ class Child:
                 reply: Any = self._load(request)
             elif isinstance(request, Probe):
                 reply = frames.ProbeReport(request.nonce, canary.attempts())
+            elif isinstance(request, Replace):
+                reply = self._replace(request)
             else:
                 reply = self._call(request)
             message = frames.pack(reply)
@@ -76,6 +78,14 @@ class Child:
         self._submission = submission = Submission(request.source, report)
         submission.execute(set(request.skip), request.stop)
         return frames.LoadReport(request.nonce, submission.functions(), submission.remarks, submission.answers())
+
+    def _replace(self, request: Replace) -> frames.Replaced:
+        shared: batches.Shared = {}
+        made = [batches.build_object(data, self._posegraph, shared) for data in request.objects]
+        self._objects = [*self._objects, *made]
+        if self._submission is not None:
+            self._submission.replace(request.tables, self._objects, self._posegraph)
+        return frames.Replaced(request.nonce)
 
     def _call(self, request: Run | Call) -> frames.BatchReport:
         if isinstance(request, Run):

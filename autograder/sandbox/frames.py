@@ -12,7 +12,15 @@ from enum import IntEnum
 from typing import Annotated, Any, Literal, TypeVar
 
 import msgspec
-from msgspec import Meta, Struct
+from msgspec import Meta
+
+from .carried import Argument as Argument  # noqa: PLC0414  # read from here
+from .carried import Array as Array  # noqa: PLC0414  # read from here
+from .carried import Batch as Batch  # noqa: PLC0414  # read from here
+from .carried import Frame as Frame  # noqa: PLC0414  # read from here
+from .carried import GraphData as GraphData  # noqa: PLC0414  # read from here
+from .carried import RangingData as RangingData  # noqa: PLC0414  # read from here
+from .carried import Table as Table  # noqa: PLC0414  # read from here
 
 HEADER = struct.Struct("<I")
 MAX_DIMENSIONS = 8
@@ -51,54 +59,6 @@ class Kind(IntEnum):
     FLOAT32_ARRAY = 5
     SCALAR = 6
     OTHER = 7
-
-
-class Frame(Struct, array_like=True, forbid_unknown_fields=True):
-    """Base of all frames: a tagged msgpack array without surplus fields."""
-
-
-class Array(Frame, tag="array"):
-    """A float64 array, little endian, in C order."""
-
-    shape: tuple[int, ...]
-    data: bytes
-
-
-class GraphData(Frame, tag="graph"):
-    """The fields of a PoseGraph; integer fields as int64 bytes, the others as float64 bytes."""
-
-    n_poses: int
-    edges: bytes
-    measurements: bytes
-    edge_variances: bytes
-    priors: bytes
-    prior_means: bytes
-    prior_variances: bytes
-
-
-class RangingData(Frame, tag="ranging"):
-    """The fields of a Ranging; `poses` as int64 bytes, the others as float64 bytes."""
-
-    beacon: bytes
-    poses: bytes
-    ranges: bytes
-    variances: bytes
-
-
-Argument = int | Array | GraphData | RangingData
-
-
-class Batch(Frame, tag="batch"):
-    """Calls of one function: `function(*arguments)` for every case, in order.
-
-    Each call returns `parts` arrays. A value with more than `max_elements` elements is refused
-    and only its shape reported. An integer argument is an index into `Inputs.objects`.
-    """
-
-    function: str
-    parts: int
-    max_elements: int
-    cases: list[list[Argument]]
 
 
 class Inputs(Frame, tag="inputs"):
@@ -142,13 +102,30 @@ class Call(Frame, tag="call"):
     batch: Batch
 
 
+class Replace(Frame, tag="replace"):
+    """Ask to put functions that answer from tables in the place of the submission's own.
+
+    The objects are numbered from where those of the inputs end; calls that follow may name them too.
+    """
+
+    nonce: Nonce
+    objects: list[GraphData | RangingData]
+    tables: list[Table]
+
+
+class Replaced(Frame, tag="replaced"):
+    """The tables are in place."""
+
+    nonce: Nonce
+
+
 class Probe(Frame, tag="probe"):
     """Ask a canary what it can do although the lock is on."""
 
     nonce: Nonce
 
 
-Request = Load | Run | Call | Probe
+Request = Load | Run | Call | Replace | Probe
 
 
 class Hello(Frame, tag="hello"):
@@ -247,7 +224,7 @@ class Ready(Frame, tag="ready"):
     error: str
 
 
-Reply = Hello | Progress | LoadReport | BatchReport | Trouble | ProbeReport
+Reply = Hello | Progress | LoadReport | BatchReport | Replaced | Trouble | ProbeReport
 _AnyFrame = TypeVar("_AnyFrame")
 
 _encoder = msgspec.msgpack.Encoder()

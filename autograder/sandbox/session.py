@@ -10,7 +10,7 @@ from types import TracebackType
 from autograder.errors import SandboxError
 from autograder.sandbox import frames
 from autograder.sandbox.channel import WALL_FACTOR, Budget, Channel, Ended
-from autograder.sandbox.frames import Batch, Source
+from autograder.sandbox.frames import Batch, Source, Table
 from autograder.sandbox.outputs import (
     Expected,
     Failure,
@@ -75,6 +75,22 @@ class Session:
         nonce = secrets.randbits(62)
         return self._ask(frames.Call(nonce, batch), nonce, Expected.of(batch), share)
 
+    def replace(self, objects: list[frames.GraphData | frames.RangingData], tables: list[Table]) -> Failure | None:
+        """Begin again in a fresh child, with functions that answer from tables in the place of the submission's own.
+
+        They stand there until that child ends: `fresh` ends it, and so does a call that fails.
+        """
+        self._discard()
+        nonce = secrets.randbits(62)
+        reply = self._exchange(frames.Replace(nonce, objects, tables), nonce, frames.LOAD_BOUND, 1.0)
+        if isinstance(reply, frames.Replaced):
+            return None
+        return (
+            reply
+            if isinstance(reply, Failure)
+            else self._failure(Violation("a reply is not of the kind that was asked for"), 1.0)
+        )
+
     def fresh(self) -> None:
         """Throw the child away: the next call happens in one that has seen no call before."""
         self._discard()
@@ -99,6 +115,18 @@ class Session:
     def _ask(
         self, request: frames.Run | frames.Call, nonce: int, expected: Expected, share: float
     ) -> Outputs | Failure:
+        reply = self._exchange(request, nonce, expected.bound, share)
+        if isinstance(reply, Failure):
+            return reply
+        try:
+            if isinstance(reply, frames.BatchReport):
+                return read_outputs(reply, expected)
+            raise Violation("a reply is not of the kind that was asked for")
+        except Violation as end:
+            return self._failure(end, share)
+
+    def _exchange(self, request: frames.Request, nonce: int, bound: int, share: float) -> frames.Reply | Failure:
+        """Send a request to the child, which is started where there is none, and wait for its reply."""
         if self._channel is None:
             self._start()
         if self._channel is None:
@@ -106,13 +134,11 @@ class Session:
         try:
             self._channel.require_silence()
             self._channel.begin(frames.pack(request), nonce)
-            reply = self._channel.reply(expected.bound, share * self._limits.cpu_seconds)
+            reply = self._channel.reply(bound, share * self._limits.cpu_seconds)
             self._channel.require_silence()
-            if isinstance(reply, frames.BatchReport):
-                return read_outputs(reply, expected)
             if isinstance(reply, frames.Trouble):
                 raise Ended("memory")
-            raise Violation("a reply is not of the kind that was asked for")
+            return reply
         except (Ended, Violation) as end:
             return self._failure(end, share)
 

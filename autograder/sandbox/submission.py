@@ -6,11 +6,11 @@ import __future__
 import ast
 import linecache
 import sys
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from types import ModuleType
 from typing import Any
 
-from . import frames
+from . import frames, tables
 from .failures import classify, clean, said
 from .frames import AnswerData, Outcome, Remark, Source, Status
 from .imports import STUDENT_BUILTINS, ForbiddenImport
@@ -103,6 +103,11 @@ class Submission:
         """Give what a name is bound to, where that can be called."""
         value = self._names.get(name)
         return value if callable(value) else None
+
+    def replace(self, found: Sequence[frames.Table], objects: Sequence[Any], posegraph: ModuleType) -> None:
+        """Put functions that answer from tables in the place of the submission's own."""
+        for table in found:
+            tables.put(self._names, table, objects, posegraph)
 
     def functions(self) -> list[str]:
         """List the names that can be called, the submission's own and imported ones."""
