@@ -13,13 +13,13 @@ from assignment.posegraph import PoseGraph
 from autograder.problems import placing
 from autograder.problems.cases import Case
 from autograder.problems.chance import (
+    between,
     booleans,
     displacements,
+    drawn,
     integers,
-    numbers,
-    orders,
+    order,
     sampled_from,
-    several,
     states_in_tenths,
 )
 from autograder.problems.drawn_systems import dense, graph_shaped, rangings, unequal_weights, whole_numbers
@@ -49,9 +49,9 @@ def _measured(
     k, p = len(pairs), len(priors)
     first_is_origin = list(priors) == [0]
     measurements = displacements(draw, k)
-    edge_variances = numbers(draw, sampled_from(variances), k)
+    edge_variances = drawn(draw, variances, k)
     means = np.zeros(1) if first_is_origin else displacements(draw, p)
-    prior_variances = numbers(draw, sampled_from(variances if variances in NARROW[1:] else (0.001, *variances)), p)
+    prior_variances = drawn(draw, variances if variances in NARROW[1:] else (0.001, *variances), p)
     return PoseGraph(n_poses, np.array(pairs), measurements, edge_variances, np.array(priors), means, prior_variances)
 
 
@@ -71,20 +71,20 @@ def _pair(draw: DrawFn, n_poses: int) -> tuple[int, int]:
 def _tangled(draw: DrawFn, low: int, high: int) -> tuple[int, list[tuple[int, int]]]:
     n = draw(integers(low, high))
     pairs = chain(n) + [_pair(draw, n) for _ in range(draw(integers(1, 3)))]
-    turned = draw(several(booleans, len(pairs)))
+    turned = drawn(draw, (0, 1), len(pairs)).tolist()
     pairs = [(j, i) if turn else (i, j) for (i, j), turn in zip(pairs, turned, strict=True)]
-    return n, [pairs[place] for place in draw(orders(len(pairs)))]
+    return n, [pairs[place] for place in order(draw, len(pairs))]
 
 
 def _salt(draw: DrawFn) -> float:
-    return float(numbers(draw, integers(0, 98), 2) @ (1 / 99, 1 / 9801))
+    return float(drawn(draw, between(0, 98), 2) @ (1 / 99, 1 / 9801))
 
 
 def _shape(
     draw: DrawFn, low: int, high: int, parts: int = 1, loops: tuple[int, int] = (0, 2), more_priors: int = 0
 ) -> Shape:
     """Draw how many poses, parts (at the most so many), loops and more priors there are, and what decides the rest."""
-    count = numbers(draw, integers(0, 98), 4).astype(int).tolist()
+    count = drawn(draw, between(0, 98), 4).astype(int).tolist()
     n = low + count[0] % (high - low + 1)
     n_parts, n_loops = 1 + count[1] % min(parts, n - 1), loops[0] + count[2] % (loops[1] - loops[0] + 1)
     more = count[3] % (more_priors + 1)
@@ -108,8 +108,8 @@ def several_loops(draw: DrawFn) -> Case:
     return states_in_tenths(draw, shape.n_poses), _measured(draw, shape.n_poses, shape.pairs, VARIANCES, [0])
 
 
-def _prior_poses(draw: DrawFn, n_poses: int) -> list[int]:
-    return draw(several(integers(0, n_poses - 1), draw(integers(1, 4))))
+def _prior_poses(draw: DrawFn, n_poses: int) -> np.ndarray:
+    return drawn(draw, between(0, n_poses - 1), draw(integers(1, 4))).astype(int)
 
 
 def _held(draw: DrawFn, variances: tuple[float, ...]) -> Case:

@@ -1,7 +1,9 @@
 """The drawn cases: enough, distinct, simplest first, inside the bounds, the same for the same seed."""
 
+import ast
 import inspect
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -113,3 +115,28 @@ def test_every_rung_with_a_share_has_a_strategy():
 def test_loop_edges_of_a_tree_are_none():
     """A walk without a closure has no loop."""
     assert loop_edges(PoseGraph(3, [(0, 1), (1, 2)], [1, 1], [1, 1], [0], [0], [1])) == []
+
+
+def test_no_literal_is_taken_for_a_draw():
+    """Hypothesis mixes literals of local modules into its draws: none of bytes has the length of a draw."""
+    root = Path(chance.__file__).parents[2]
+    literals = [
+        (path.name, node.value)
+        for package in ("assignment", "autograder", "reference_solution")
+        for path in (root / package).rglob("*.py")
+        if "specimens" not in path.parts
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Constant) and isinstance(node.value, bytes)
+    ]
+    assert len(literals) > 50
+    assert [found for found in literals if len(found[1]) == chance.BYTES] == []
+
+
+@given(st.data())
+def test_every_value_of_a_table_is_drawn(data):
+    """An array holds values of its table and nothing else, however long it is."""
+    table, count = data.draw(st.sampled_from([(1.0, 2.0, 5.0), (0.5,)])), data.draw(st.integers(0, 40))
+    found = chance.drawn(data.draw, table, count)
+    assert found.shape == (count,)
+    assert set(found.tolist()) <= set(table)
+    assert sorted(chance.order(data.draw, count)) == list(range(count))
