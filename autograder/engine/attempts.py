@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import ParamSpec, TypeVar
 
+from msgspec.structs import replace
+
 from autograder.errors import SandboxLost
+from autograder.verdicts import StageVerdict
 
 STRICT = "AUTOGRADER_STRICT"  # set by our tests: a failed explanation is then a fault that nobody can overlook
 
@@ -51,3 +54,24 @@ class Attempts:
     def flags(self) -> tuple[str, ...]:
         """Say to staff which words are missing; the marks are whole."""
         return tuple(f"The marks stand, but {each}: please look at its page, and tell us." for each in self.failed)
+
+
+def only_words(marks: Sequence[StageVerdict], said: Sequence[StageVerdict]) -> list[StageVerdict]:
+    """Take the words of what was said, and every mark as it was."""
+    return [_only_words(mark, each) for mark, each in zip(marks, said, strict=True)]
+
+
+def _only_words(mark: StageVerdict, said: StageVerdict) -> StageVerdict:
+    checks = [
+        replace(check, message=each.message, counterexample=each.counterexample)
+        for check, each in zip(mark.checks, said.checks, strict=True)
+    ]
+    return replace(
+        mark,
+        checks=tuple(checks),
+        message=said.message,
+        slip=said.slip,
+        hint=said.hint,
+        remarks=said.remarks,
+        group=said.group,
+    )

@@ -102,7 +102,8 @@ def collect(session: Session, plan: Plan, *, alone: bool = False) -> Collected:
         for bundle in plan.bundles_of(stage):
             if collected.unsure and not alone:
                 return collected
-            if stage.function not in collected.loaded.functions:
+            function = bundle.tasks[0].stage.function  # a stage may ask several
+            if function not in collected.loaded.functions:
                 continue
             found = _doubted(session, plan, bundle, hung) or ({} if alone else _bundle(session, plan, bundle))
             if isinstance(found, Failure):
@@ -113,7 +114,7 @@ def collect(session: Session, plan: Plan, *, alone: bool = False) -> Collected:
             found = found or _one_by_one(session, plan, bundle)
             collected.replies.update(found)
             if any(reply.failure is not None and reply.failure.reason in LATE for reply in found.values()):
-                hung.add(stage.function)
+                hung.add(function)
     return collected
 
 

@@ -14,7 +14,7 @@ import msgspec
 import numpy as np
 
 from autograder.engine.answering import judge_answers, judge_written
-from autograder.engine.attempts import Attempts
+from autograder.engine.attempts import Attempts, only_words
 from autograder.engine.collect import collect
 from autograder.engine.corpus import case_of, load_corpus
 from autograder.engine.describe import Describer
@@ -118,14 +118,15 @@ class Examiner:
             collected = collect(session, self.plan, alone=job.alone)
             if collected.unsure and not job.alone:
                 return Graded((), (), unsure=True, seconds=time.perf_counter() - began, written={}, iterates=None)
-            stages = list(self.judge.judge(collected))
+            marks = list(self.judge.judge(collected))
             given = collected.loaded.answers
             if answers.NAME in self.plan.points:
-                step_is_right = any(verdict.name == STAGE and verdict.status == "passed" for verdict in stages)
-                stages.append(judge_answers(self.plan, sheet, given, session, step_is_right))
+                step_is_right = any(verdict.name == STAGE and verdict.status == "passed" for verdict in marks)
+                marks.append(judge_answers(self.plan, sheet, given, session, step_is_right))
             attempt = Attempts()  # the marks are final: from here on only words are added
-            stages = self.describer.describe(collected, stages, attempt)
+            stages = attempt("describing", self.describer.describe, collected, marks, attempt) or marks
             stages = attempt("explaining", explain, session, self.plan, stages, collected.replies, attempt) or stages
+            stages = attempt("taking the words", only_words, marks, stages) or marks
         texts = _texts(given, job.markdown_answers)
         if written.NAME in self.plan.points:
             stages.append(judge_written(self.plan.points[written.NAME], texts))

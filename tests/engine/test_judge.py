@@ -200,3 +200,11 @@ def test_the_counterexample_is_small_and_complete(grade_source):
     assert shown["graph"]["n_poses"] <= 5
     assert len(shown["got"]) == len(shown["expected"])
     assert shown["got"] != shown["expected"]
+
+
+def test_each_function_of_a_stage_is_asked_whether_or_not_the_other_is_there(grade_source):
+    """range_jacobian alone earns its own share of the stage."""
+    text = REFERENCE + "\n\ndel range_residual\n"
+    verdict = grade_source(text)["range_factor"]
+    assert {check.name: check.passed for check in verdict.checks} == {"distances": False, "derivatives": True}
+    assert verdict.checks[0].message == "range_residual is not defined in the submission."
