@@ -26,8 +26,7 @@ PARTS = {"normal_equations": ("H", "b"), "sparsity_pattern": ("J_mask", "H_mask"
 class Came:
     """What one call gave.
 
-    `arrays` are all that it returned, none where it gave no numbers. `again` marks the call of a second
-    round; its arguments are those of the first call of the case, from which it went on.
+    `arrays` are all that it returned, none where it gave no numbers. `again` marks the call of a second round.
     """
 
     arguments: Case
@@ -44,7 +43,8 @@ def came(task: Task, index: int, reply: Reply) -> list[Came]:
     first = int(task.first_calls[index])
     found = [_came(reply.outputs, first + place, task.stage, call) for place, call in enumerate(calls)]
     if isinstance(reply.again, Outputs):
-        found.append(_came(reply.again, index, task.stage, calls[0], again=True))
+        later = task.stage.follow_up(task.prepared, reply.outputs) or []
+        found.append(_came(reply.again, index, task.stage, later[index], again=True))
     return found
 
 
@@ -72,6 +72,12 @@ def plainly(task: Task, index: int, reply: Reply) -> tuple[Outcome, str]:
     unusable = (_unusable(task.stage, call) for call in calls)
     found = next((each for each in unusable if each is not None), None)
     return found or (Outcome.OK, _furthest(task.stage, [call for call in calls if not call.again]))
+
+
+def telling(task: Task, index: int, reply: Reply) -> Came:
+    """Return the call of a case that a reader should see: the first without usable numbers, else the first."""
+    calls = came(task, index, reply)
+    return next((call for call in calls if _unusable(task.stage, call) is not None), calls[0])
 
 
 def _unusable(stage: Stage, call: Came) -> tuple[Outcome, str] | None:
@@ -121,10 +127,11 @@ def _furthest(stage: Stage, calls: Sequence[Came]) -> str:
             if gap.size and gap.max() > worst:
                 worst, place = float(gap.max()), np.unravel_index(int(gap.argmax()), gap.shape)
                 where = f"{name}[{', '.join(str(int(each)) for each in place)}]"
-                words = f"{stage.function} returned {where} = {_shown(got[place], wanted[place])}."
+                words = f"{stage.function} returned {where} = {_beside(got[place], wanted[place], worst)}."
     return words
 
 
-def _shown(got: float, wanted: float) -> str:
+def _beside(got: float, wanted: float, gap: float) -> str:
+    """Write two numbers side by side; where they print alike, how far apart they are."""
     mine, right = number(float(got)), number(float(wanted))
-    return f"{mine}, expected {right}" if mine != right else f"{float(got)!r}, expected {float(wanted)!r}"
+    return f"{mine}, expected {right}" + (f", which is {gap:.2g} away" if mine == right else "")

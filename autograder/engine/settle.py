@@ -30,8 +30,8 @@ def settled(values: Any, digits: int = 10, noise: float = 1e-12) -> Array:
     --------
     >>> settled([0.1 + 0.2, 3e-17, -0.0, np.inf]).tolist()
     [0.3, 0.0, 0.0, inf]
-    >>> settled([1234567.0, 0.12345678], digits=6).tolist()
-    [1234570.0, 0.123457]
+    >>> settled([1234567.0, 0.12345678], digits=6).tolist(), settled(0.5).tolist()
+    ([1234570.0, 0.123457], 0.5)
     """
     values = np.asarray(values, dtype=np.float64)
     finite = np.where(np.isfinite(values), values, 0.0)
@@ -40,5 +40,5 @@ def settled(values: Any, digits: int = 10, noise: float = 1e-12) -> Array:
     up, down = 10.0 ** np.clip(place, 0, 300), 10.0 ** np.clip(-place, 0, 300)  # powers of ten are exact upwards only
     with np.errstate(over="ignore"):  # the largest number of all, rounded up
         rounded = np.round(finite * up / down) * down / up
-    rounded[size < noise * max(1.0, size.max(initial=0.0))] = 0.0
+    rounded = np.where(size < noise * max(1.0, size.max(initial=0.0)), 0.0, rounded)
     return np.asarray(np.where(np.isfinite(values), rounded, values) + 0.0)

@@ -8,7 +8,7 @@ import numpy as np
 
 from assignment.posegraph import PoseGraph, Ranging
 from autograder.engine.collect import Reply
-from autograder.engine.evidence import came, plainly
+from autograder.engine.evidence import came, plainly, telling
 from autograder.engine.plan import Task
 from autograder.engine.settle import settled
 from autograder.problems.plain import plain
@@ -36,9 +36,9 @@ def why(task: Task, index: int, reply: Reply) -> str:
 
 
 def counterexample(task: Task, index: int, reply: Reply) -> Example | None:
-    """Write a failing case as plain data: the arguments of its first call, what came, what was expected."""
+    """Write a failing case as plain data: the arguments of the call that shows it, what came, what was expected."""
     function = task.stage.function
-    call = came(task, index, reply)[0]
+    call = telling(task, index, reply)
     if any(max(_extent(argument)) > MAX_SHOWN_POSES for argument in call.arguments):
         return None
     names = _ARGUMENTS.get(function, ("x", "graph"))

@@ -200,6 +200,7 @@ RULES = {
     "the first time": "_count('{name}') > {period}",
     "by size": "{size} % {period}",
     "by process": "(id(object()) >> 8) % {period}",
+    "where nothing is left": "_small(right)",
     "by time": "__import__('time').perf_counter_ns() % {period}",
 }
 PRELUDE = """
@@ -234,6 +235,11 @@ def _scipy():
     import scipy
 
     return scipy.sparse
+
+
+def _small(right):
+    first = right[0] if isinstance(right, tuple) else right
+    return float(np.max(np.abs(np.asarray(first, float)), initial=0.0)) < 1e-6
 
 
 def _count(name):
