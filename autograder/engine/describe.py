@@ -50,9 +50,9 @@ class Describer:
         replies = [collected.reply(task) for task in tasks]
         style = attempt(f"remarking on {stage.name}", remarks, tasks, replies) or ()
         verdict = replace(verdict, remarks=(*verdict.remarks, *style))
+        verdict = _shown(verdict, tasks, replies, attempt)
         if verdict.status in {"passed", "missing"}:
             return verdict
-        verdict = _shown(verdict, tasks, replies, attempt)
         group = attempt(f"grouping {stage.name}", digest, tasks, replies) or ""
         followed = all(check.passed or check.points for check in verdict.checks)
         slip = None if followed else attempt(f"naming the mistake in {stage.name}", self._slip, stage, tasks, replies)
@@ -90,13 +90,14 @@ def _joined(outputs: Sequence[Outputs]) -> Given:
 def _shown(verdict: StageVerdict, tasks: Sequence[Task], replies: Sequence[Reply], attempt: Attempts) -> StageVerdict:
     """Put into every failed check, and into the message, what is wrong with the simplest case that is."""
     checks, message = list(verdict.checks), verdict.message
+    first = next((number for number, check in enumerate(checks) if not check.passed), -1)
     for number, (check, task, reply) in enumerate(zip(verdict.checks, tasks, replies, strict=True)):
         if check.passed or reply.failure is not None:
             continue
         found = attempt(f"showing a case of {verdict.name}", _case, check, task, reply)
         if found is not None:
             checks[number] = found
-            message = swapped(message, check.message, found.message)
+            message = swapped(message, check.message, found.message) if number == first else message
     return replace(verdict, checks=tuple(checks), message=message)
 
 

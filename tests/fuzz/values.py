@@ -33,7 +33,7 @@ CLAIMS = {
     ),
     "odd": re.compile(r"(?:(\w+) of )?(\w+)(?:\(x \+ dx\(x\), graph\))? returned (nan|inf), expected finite numbers"),
     "words": re.compile(
-        r"()(\w+)(?:\(x \+ dx\(x\), graph\))? returned ((?!shape|nan|inf|\[).*?)(?:; expected an array of real|\.$)"
+        r"()(\w+)(?:\(x \+ dx\(x\), graph\))? returned ((?!shape|nan|inf|\w*\[).*?)(?:; expected an array of real|\.$)"
     ),
     "raised": re.compile(r"()(\w+)(?:\(x \+ dx\(x\), graph\))? raised (\w+)"),
     "unfinished": re.compile(r"()(\w+)(?:\(x \+ dx\(x\), graph\))? is unfinished: it raises NotImplementedError"),
