@@ -38,8 +38,10 @@ def flatten(value: Any, most: int) -> tuple[tuple[int, ...], bytes, Kind]:
     if issubclass(kind, _CONTAINERS):
         try:
             array = np.asarray(value)
-        except ValueError:
-            raise BadValue(f"{described(value)} that holds rows of unequal length") from None
+        except ValueError as error:
+            uneven = "inhomogeneous" in str(error)
+            what = "holds rows of unequal length" if uneven else "is nested too deeply"
+            raise BadValue(f"{described(value)} that {what}") from None
         if type(array) is not np.ndarray:
             raise BadValue(described(value))
         shape, data, _ = _plain_array(array, most, f"{described(value)} that holds")

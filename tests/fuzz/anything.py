@@ -74,6 +74,14 @@ FORMS = [
     _numbers("tuple(right.tolist())", _same, right=True),
     _numbers("np.matrix(right)", lambda wanted: wanted if len(wanted) == 2 else (1, *wanted), right=True),
     _numbers("right.astype(np.longdouble)", _same, right=True),
+    _numbers("right.astype('>f8')", _same, right=True),
+    _numbers("right.astype(object)", _same, right=True),
+    _numbers("np.asfortranarray(right)", _same, right=True),
+    _numbers("right[::-1][::-1]", _same, right=True),
+    _numbers("right.view(_Array)", _same, right=True),
+    _numbers("_spoil(locals(), right)", _same, right=True),
+    _numbers("right.astype(np.float16)", _same, right=None),
+    _numbers("right.astype(np.uint8)", _same, right=None),
     _numbers("right.astype(np.float32)", _same, right=None),
     _numbers("np.round(right).astype(int)", _same, right=None),
     _numbers("right.astype(bool)", _same, right=None),
@@ -97,6 +105,10 @@ WRONG = [
     _numbers("__import__('decimal').Decimal('NaN')", _fixed()),
     _numbers("float('nan')", _fixed()),
     _numbers("10**30", _fixed()),
+    _numbers("np.bool_(False)", _fixed()),
+    _numbers("np.zeros((1, 1))", _fixed(1, 1), right=None),
+    _numbers("np.array([2**63], dtype=np.uint64)", _fixed(1), right=None),
+    _numbers("_nested(8)", _fixed(1, 1, 1, 1, 1, 1, 1, 1)),
     _numbers("[]", _fixed(0)),
     _numbers("()", _fixed(0)),
     _numbers("[[]]", _fixed(1, 0)),
@@ -154,6 +166,23 @@ WORDS = [
         "[10**400]": "a list of 1 that holds integers too large for a float",
         "10**400": "an int integers too large for a float",
         "np.zeros((1,) * 9)": "an array of 9 dimensions",
+        "_nested(9)": "an array of 9 dimensions",
+        "_nested(200)": "a list of 1 that is nested too deeply",
+        "_circle()": "a list of 1 that is nested too deeply",
+        "_coroutine()": "a coroutine",
+        "_generator()": "a generator",
+        "memoryview(b'x')": "a memoryview",
+        "np.ma.masked": "a masked array",
+        "np.datetime64('NaT')": "a datetime64",
+        "np.void(b'x')": "a void",
+        "np.dtype(float)": "a Float64DType",
+        "np.complex64(1)": "a complex64",
+        "NotImplemented": "a NotImplementedType",
+        "frozenset()": "a frozenset",
+        "bytearray(3)": "a bytearray",
+        "type('residual', (), {})()": "a residual",
+        "globals()": "a dict",
+        "__import__('collections').deque([1])": "a deque",
         "_Odd()": "a _Odd",
     }.items()
 ]
@@ -172,6 +201,8 @@ RAISES = [
         "StopIteration": "StopIteration()",
         "NotImplementedError": "NotImplementedError()",
         "Silent": "Silent()",
+        "OSError": "OSError('\\u202e<script>alert(1)</script>' * 300)",
+        "TypeError": "TypeError('a\\nb\\x00c')",
         "LinAlgError": "np.linalg.LinAlgError('Singular matrix')",
         "UnicodeDecodeError": "UnicodeDecodeError('utf-8', b'x', 0, 1, 'no')",
         "ExceptionGroup": "ExceptionGroup('several', [ValueError(1)])",
@@ -201,6 +232,7 @@ RULES = {
     "by size": "{size} % {period}",
     "by process": "(id(object()) >> 8) % {period}",
     "where nothing is left": "_small(right)",
+    "by another process": "__import__('os').getpid() % {period}",
     "by time": "__import__('time').perf_counter_ns() % {period}",
 }
 PRELUDE = """
@@ -223,8 +255,40 @@ class Silent(Exception):
         raise ValueError("not even this")
 
 
+class _Array(np.ndarray):
+    pass
+
+
 def _raise(error):
     raise error
+
+
+def _nested(depth):
+    value = 1.0
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+def _circle():
+    value = []
+    value.append(value)
+    return value
+
+
+async def _coroutine():
+    return 1
+
+
+def _generator():
+    yield 1
+
+
+def _spoil(names, right):
+    for value in list(names.values()):
+        if isinstance(value, np.ndarray) and value is not right and value.flags.writeable and value.dtype == float:
+            value.fill(7)
+    return right
 
 
 def _forever(depth):

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import ast
+import html
 import json
 import os
 import re
@@ -26,6 +27,7 @@ from autograder.verdicts import decode
 from tests.fuzz.anything import ARGUMENTS, PARTS, Behaviour, Drawn, Value, drawn
 
 ROOT = Path(__file__).resolve().parents[2]
+_TAG = re.compile(r"<[^>]*>")
 SHAPE = r"\([\d, ]*\)"
 CLAIMS = {
     "shape": re.compile(
@@ -75,8 +77,13 @@ def examined(out: Path, name: str, submission: Drawn) -> list[str]:
     if result["status"] != "graded":
         return [f"is {result['status']}: {result['message']}"]
     faults = [f"an explanation failed: {flag}" for flag in result["flags"]]
-    if not (out / "feedback" / f"{name}.html").is_file():
-        faults.append("has no page")
+    page = letters(html.unescape(_TAG.sub("", (out / "feedback" / f"{name}.html").read_text("utf-8"))))
+    lost = [stage for stage in result["stages"] if stage["status"] not in {"passed", "awaiting_mark"}]
+    faults += [
+        f"the page does not say of {stage['name']}: {stage['message']}"
+        for stage in lost
+        if letters(stage["message"]) not in page
+    ]
     try:
         for policy in ("full", "hint", "score"):
             json.loads(results_json(decode(data), policy))
@@ -85,6 +92,11 @@ def examined(out: Path, name: str, submission: Drawn) -> list[str]:
     for stage in result["stages"]:
         faults += [f"{stage['name']}: {fault}" for fault in stage_faults(stage, submission)]
     return faults
+
+
+def letters(text: str) -> str:
+    """Keep the letters and digits of a text: spaces, signs and formulas are set otherwise on a page."""
+    return "".join(letter for letter in text if letter.isascii() and letter.isalnum())
 
 
 def stage_faults(stage: dict[str, Any], submission: Drawn) -> list[str]:

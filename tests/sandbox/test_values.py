@@ -85,7 +85,7 @@ BAD = {
     "a long side of nothing": ("np.zeros((0, 10**9))", "shape (0, 1000000000)"),
     "too many dimensions": ("np.zeros((1,) * 9)", "an array of 9 dimensions"),
     "an integer too large": ("[10**400]", "a list of 1 that holds integers too large for a float"),
-    "a list in itself": ("Loop", "a list of 1 that holds rows of unequal length"),
+    "a list in itself": ("Loop", "a list of 1 that is nested too deeply"),
 }
 
 
