@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import errno
 import importlib
-import os
 import pkgutil
+import signal
 import sys
+import traceback
 from collections.abc import Sequence
 from typing import NoReturn
 
 import click
 
 from autograder import __version__, commands
+from autograder.commands._limits import too_little
+from autograder.commands._streams import are_ours, make_safe
 from autograder.errors import AutograderError
 
 DONE, DEFECT, USAGE, OUR_FAULT, INTERRUPTED = 0, 1, 2, 3, 130
@@ -80,28 +83,62 @@ def cli(ctx: click.Context, debug: bool) -> None:
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run the command line and leave with the contract's exit code; bad input never ends in a traceback."""
     arguments = list(sys.argv[1:] if arguments is None else arguments)
+    alone = are_ours()  # a test that calls this has streams of its own, and goes on when this has ended
+    if alone:
+        make_safe()
+        _hear_signals()
     try:
-        code = cli.main(args=arguments, prog_name="autograder", standalone_mode=False)
-        sys.stdout.flush()
-    except click.exceptions.NoArgsIsHelpError as help_wanted:
-        click.echo(help_wanted.format_message())
-        code = DONE
-    except click.ClickException as error:
-        code = _say(_usage(error), USAGE)
-    except AutograderError as error:
-        code = _say(str(error), error.exit_code)
+        code = _run(arguments)
     except (KeyboardInterrupt, click.Abort):
         code = _say("Interrupted. Results so far are kept; the same command goes on from there.", INTERRUPTED)
-    except BrokenPipeError:  # the reader of our output has left: `autograder grade ... --json | head -1`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = DONE
-    except Exception as error:  # the last resort: the user gets a sentence, the file gets the rest
-        if "--debug" in arguments:
+    except BaseException as error:  # the last resort: the user gets a sentence, the file gets the rest
+        if isinstance(error, SystemExit) or not alone:
             raise
+        code = _say(f"An error of the grader itself ({type(error).__name__}), no fault of a student.", OUR_FAULT)
+    if alone:
+        _end_tracker()
+    sys.exit(code)
+
+
+def _run(arguments: Sequence[str]) -> int:
+    """Run one command; every outcome but an interruption is an exit code and at most one line."""
+    if sys.flags.optimize > 1:
+        return _say("Python runs with -OO, which drops the texts that students are shown; run it without.", USAGE)
+    try:
+        with cli.make_context("autograder", list(arguments)) as context:  # click's own main ends with 1 on many ways
+            code = cli.invoke(context)
+    except click.exceptions.Exit as end:
+        return end.exit_code
+    except click.exceptions.NoArgsIsHelpError as help_wanted:
+        click.echo(help_wanted.format_message())
+        return DONE
+    except click.ClickException as error:
+        return _say(_usage(error), USAGE)
+    except AutograderError as error:
+        return _say(str(error), error.exit_code)
+    except (KeyboardInterrupt, click.Abort):
+        raise
+    except Exception as error:  # noqa: BLE001  # whatever it is, the user gets a sentence and the file the rest
+        if "--debug" in arguments:
+            traceback.print_exception(error)
         if isinstance(error, OSError) and error.errno in _NO_ROOM:
-            sys.exit(_say(f"{error.filename or 'A file'} could not be written ({error.strerror}). {_KEPT}", USAGE))
-        code = _say(_unexpected(error), OUR_FAULT)
-    sys.exit(code if isinstance(code, int) else DONE)
+            return _say(f"{error.filename or 'A file'} could not be written ({error.strerror}). {_KEPT}", USAGE)
+        return _say(too_little(error) or _unexpected(error), OUR_FAULT)
+    return code if isinstance(code, int) else DONE
+
+
+def _hear_signals() -> None:
+    """Let a request to end, or a terminal that closes, be what Ctrl-C is: all processes end, what is done is kept."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is signal.SIG_DFL:
+            signal.signal(number, signal.default_int_handler)
+
+
+def _end_tracker() -> None:
+    """End the process that multiprocessing starts beside its workers; left alone, it ends a moment after this one."""
+    tracker = sys.modules.get("multiprocessing.resource_tracker")
+    if tracker is not None:
+        tracker._resource_tracker._stop()
 
 
 def _say(sentence: str, code: int) -> int:
@@ -120,7 +157,6 @@ def _usage(error: click.ClickException) -> str:
 
 def _unexpected(error: Exception) -> str:
     import tempfile
-    import traceback
 
     with tempfile.NamedTemporaryFile(
         "w", prefix="autograder-", suffix=".traceback.txt", delete=False, encoding="utf-8"

@@ -18,16 +18,18 @@ errors             -> nothing
 verdicts           -> nothing
 posegraph          -> nothing
 writing            -> errors
+lifeline           -> nothing
 reference_solution -> nothing
 assignment         -> posegraph
-problems           -> posegraph, errors
+problems           -> posegraph, lifeline, errors
 sandbox            -> errors
 intake             -> errors, sandbox
 stages             -> problems, reference_solution, verdicts, posegraph
 course             -> stages, errors
 diagnosis          -> posegraph, stages, problems, verdicts
 render             -> stages, problems, posegraph, errors
-engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, errors
+engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, lifeline,
+                      errors
 marking            -> course, verdicts, writing, errors
 reports            -> verdicts, marking, render.figure, render.formula, errors
 exports            -> render, stages, problems, posegraph, reports, verdicts, writing, errors

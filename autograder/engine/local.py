@@ -81,9 +81,10 @@ class LocalPool:
             each.connection.close()
         for each in self._workers:
             each.process.join(timeout=0.5)
-            if each.process.is_alive():
-                each.process.kill()
-                each.process.join()
+            for end in (each.process.terminate, each.process.kill):  # asked first, it ends its fork server too
+                if each.process.is_alive():
+                    end()
+                    each.process.join(timeout=5.0)
         self._workers.clear()
 
     @property

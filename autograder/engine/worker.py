@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import os
-import signal
-import threading
 import time
-from multiprocessing import parent_process
-from multiprocessing.connection import Connection, wait
+import warnings
+from multiprocessing.connection import Connection
 
 import msgspec
 import numpy as np
@@ -24,6 +22,7 @@ from autograder.engine.judge import Judge
 from autograder.engine.messages import Answer, Grade, Graded, Message, Orders, Ready, Trouble
 from autograder.engine.plan import Plan, make_plan
 from autograder.errors import AutograderError, SandboxLost
+from autograder.lifeline import live_with_parent
 from autograder.problems.variants import published
 from autograder.sandbox.host import Answers, Limits, Sandbox, Server
 from autograder.stages import answers, written
@@ -43,37 +42,29 @@ def limits_of(told: Orders) -> Limits:
 
 def main(connection: Connection) -> None:
     """Serve until the other end closes: the orders come first, then jobs; verdicts go out."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's to handle
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    live_with_parent()
+    warnings.simplefilter("ignore")  # they would end up in the grader's terminal, and are nobody's there
 
     def send(message: Message) -> None:
         connection.send_bytes(msgspec.msgpack.encode(message))
 
     # A lost fork server ends the worker without a word: who waits for it starts another.
     with contextlib.suppress(BrokenPipeError, EOFError, ConnectionResetError, SandboxLost):
+        server = Server()  # it starts while the exam is still being drawn
         try:
-            server = Server()  # it starts while the exam is still being drawn
             told = msgspec.msgpack.decode(connection.recv_bytes(), type=Orders)
             plan = plan_of(told)
             sandbox = Sandbox(plan.inputs, limits_of(told), allow_unconfined=told.allow_unconfined, server=server)
-        except SandboxLost:
-            raise
-        except AutograderError as error:
-            send(Trouble(str(error), fatal=True))
-            return
-        with sandbox:
             send(Ready(sandbox.confinement.level, sandbox.confinement.detail))
             examiner = Examiner(plan, sandbox)
             while True:
                 send(examiner.do(msgspec.msgpack.decode(connection.recv_bytes(), type=Grade)))
-
-
-def _end_with_parent() -> None:
-    """End this worker as soon as the grader is gone, however it went: the fork server and its child follow."""
-    parent = parent_process()
-    if parent is not None:
-        wait([parent.sentinel])
-        os._exit(1)
+        except SandboxLost:
+            raise
+        except AutograderError as error:
+            send(Trouble(str(error), fatal=True))
+        finally:
+            server.close()
 
 
 class Examiner:

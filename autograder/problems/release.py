@@ -20,6 +20,7 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from autograder.errors import UsageError
+from autograder.lifeline import live_with_parent
 from autograder.problems.drawing import checked_mix, draw_class
 from autograder.problems.hand_solution import hand_solution
 from autograder.problems.ledger import Ledger, read_ledger, write_ledger
@@ -209,7 +210,7 @@ def _write_all(tasks: Sequence[_Task], workers: int) -> Iterator[str]:
     if workers < 2 or len(tasks) < 20:
         yield from map(_write, tasks)
         return
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=live_with_parent) as pool:
         yield from pool.map(_write, tasks, chunksize=5)
 
 

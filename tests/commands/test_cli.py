@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import re
 import resource
 import subprocess
 import sys
@@ -9,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import click
 import pytest
 
 from autograder import cli
@@ -113,6 +116,46 @@ def test_a_reader_that_leaves_early_is_no_error(tmp_path: Path) -> None:
     code = f"{sys.executable} -m autograder grade --help | head -1"
     shown = subprocess.run(["bash", "-c", code], capture_output=True, text=True, check=True)
     assert shown.stderr == ""
+
+
+def test_python_without_docstrings_is_refused() -> None:
+    """Hints, names and help live in docstrings: with -OO one sentence says so; -O is as good as none."""
+    command = ("-m", "autograder", "grade", "--help")
+    shown = subprocess.run([sys.executable, "-OO", *command], capture_output=True, text=True, check=False)
+    assert (shown.returncode, shown.stdout) == (2, "")
+    assert re.fullmatch(r"autograder: Python runs with -OO, .*\n", shown.stderr)
+    assert subprocess.run([sys.executable, "-O", *command], capture_output=True, check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "words"),
+    [
+        (click.Abort(), 130, "Interrupted"),
+        (KeyboardInterrupt(), 130, "Interrupted"),
+        (BrokenPipeError(errno.EPIPE, "Broken pipe"), 3, "no fault of a student"),
+        (AssertionError("no"), 3, "no fault of a student"),
+        (click.ClickException("what came"), 2, "what came"),
+        (OSError(errno.EMFILE, "Too many open files"), 3, "`ulimit -n`"),
+        (BlockingIOError(errno.EAGAIN, "Resource temporarily unavailable"), 3, "too few processes"),
+        (RuntimeError("can't start new thread"), 3, "too few processes"),
+        (MemoryError(), 3, "too little memory"),
+        (OSError(errno.ENOSPC, "No space left on device"), 2, "could not be written"),
+    ],
+    ids=repr,
+)
+def test_only_a_defect_of_the_exam_ends_with_1(
+    run: Callable[..., Ended], monkeypatch: pytest.MonkeyPatch, error: BaseException, code: int, words: str
+) -> None:
+    """Whatever is raised inside a command is one line and another exit code, with --debug too."""
+
+    def fail(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr("autograder.commands.init.command.invoke", fail)
+    ended, out, err = run("init", "x.toml")
+    assert (ended, out, len(err.splitlines())) == (code, "", 1)
+    assert words in err
+    assert run("--debug", "init", "x.toml")[0] == code
 
 
 def test_the_list_of_commands_says_whole_sentences(run: Callable[..., Ended]) -> None:

@@ -1,0 +1,28 @@
+"""A process that was started to help another ends when that one has gone, however it went."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from multiprocessing import parent_process
+from multiprocessing.connection import wait
+
+
+def live_with_parent() -> None:
+    """Tie this process's life to its parent's, and leave Ctrl-C to the parent; called first in a new process.
+
+    What is asked to end leaves its `with` blocks, so that what it has started ends too.
+    """
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(1)
