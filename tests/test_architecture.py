@@ -19,7 +19,6 @@ verdicts           -> nothing
 posegraph          -> nothing
 writing            -> errors
 lifeline           -> nothing
-attempts           -> errors, verdicts
 reference_solution -> nothing
 assignment         -> posegraph
 problems           -> posegraph, lifeline, errors
@@ -30,9 +29,9 @@ course             -> stages, errors
 diagnosis          -> posegraph, stages, problems, verdicts
 render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, lifeline,
-                      attempts, errors
+                      errors
 marking            -> course, verdicts, writing, errors
-reports            -> verdicts, attempts, marking, render.figure, render.formula, errors
+reports            -> verdicts, marking, render.figure, render.formula, errors
 exports            -> render, stages, problems, posegraph, reports, verdicts, writing, errors
 desk               -> reports, marking, course, verdicts, errors
 audit              -> errors, verdicts, course, assignment, reference_solution, sandbox.frames, intake, engine,
@@ -213,7 +212,7 @@ def test_a_broken_arrow_is_seen(tmp_path: Path, room: str, text: str) -> None:
         (
             "autograder.reports.html",
             "import autograder.render.stub",
-            "reports may import attempts, errors, marking, render.figure, render.formula, verdicts",
+            "reports may import errors, marking, render.figure, render.formula, verdicts",
         ),
         ("autograder.__init__", "import autograder.errors", "autograder/__init__.py may import nothing of ours"),
         ("autograder.attic.old", "", "There is a room `attic`, which the table does not know"),

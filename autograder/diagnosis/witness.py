@@ -14,7 +14,7 @@ from autograder.problems.tracks import leave_no_tracks
 from autograder.problems.witnesses import WITNESSES
 
 GENERATED = 60  # cases drawn from a strategy before it is given up
-BUDGET = 300  # calls of `is_wrong` in all: a count, so that the witness is the same on every machine
+BUDGET = 600  # calls of `is_wrong` in all: a count, so that the witness is the same on every machine
 
 
 def smallest_witness(ladder: str, is_wrong: Callable[[Case], bool], budget: int = BUDGET) -> Case | None:

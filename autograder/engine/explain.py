@@ -13,9 +13,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from msgspec.structs import replace
 
-from autograder.attempts import Attempts
 from autograder.diagnosis.facts import Answered, facts
 from autograder.diagnosis.probes import Probe, Values, derivative_probe, probes
+from autograder.engine.attempts import Attempts
 from autograder.engine.collect import Reply, ask
 from autograder.engine.describe import swapped
 from autograder.engine.follow import EARLIER, STAGE
@@ -25,7 +25,6 @@ from autograder.engine.showing import Example, counterexample, why
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs, Session
 from autograder.stages.base import Stage
-from autograder.stages.same import finite
 from autograder.verdicts import CheckVerdict, StageVerdict
 
 
@@ -84,7 +83,7 @@ def _explained(
     found: list[str] = []
     if verdict.slip is None:
         found += attempt(f"reading facts off {stage.name}", _facts, plan, stage, replies) or []
-        found += attempt(f"probing {stage.name}", _probed, session, plan, stage, replies) or []
+        found += attempt(f"probing {stage.name}", _probed, session, plan, stage) or []
     shown = attempt(f"asking {stage.name} small cases", _shown, session, plan, stage)
     message, example = shown or (check.message, check.counterexample)
     checks = list(verdict.checks)
@@ -120,28 +119,14 @@ def _facts(plan: Plan, stage: Stage, replies: Mapping[int, Reply]) -> list[str]:
     return facts(stage, answers)
 
 
-def _probed(session: Session, plan: Plan, stage: Stage, replies: Mapping[int, Reply]) -> list[str]:
-    """Ask a few calls more, of a function that always returned finite numbers in the right shape."""
+def _probed(session: Session, plan: Plan, stage: Stage) -> list[str]:
     if stage.name not in {"residual", "jacobian", "information_matrix", "gauss_newton_step"}:
-        return []
-    if not all(_usable(task, replies.get(task.batch)) for task in plan.tasks_of(stage)):
         return []
     found = [probe.read(_values(session, plan, probe)) for probe in probes(stage.function)]
     if stage.name == "jacobian":
         of_jacobian, of_residual, read = derivative_probe()
         found.append(read(_values(session, plan, of_jacobian), _values(session, plan, of_residual)))
     return [sentence for sentence in found if sentence]
-
-
-def _usable(task: Task, reply: Reply | None) -> bool:
-    """Whether every call of a check returned finite numbers in the right shape."""
-    outputs = None if reply is None else reply.outputs
-    return (
-        isinstance(outputs, Outputs)
-        and not outputs.outcome.any()
-        and outputs.shapes == task.stage.layout(task.prepared).shapes
-        and finite(outputs.data)
-    )
 
 
 def _values(session: Session, plan: Plan, probe: Probe) -> Values:

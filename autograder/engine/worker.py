@@ -11,8 +11,8 @@ from multiprocessing.connection import Connection
 import msgspec
 import numpy as np
 
-from autograder.attempts import Attempts, only_words
 from autograder.engine.answering import judge_answers, judge_written
+from autograder.engine.attempts import Attempts, only_words
 from autograder.engine.collect import collect
 from autograder.engine.corpus import case_of, load_corpus
 from autograder.engine.describe import Describer

@@ -81,10 +81,17 @@ def loop_edges(graph: PoseGraph) -> list[int]:
     [1, 2]
     """
     pairs = [(int(i), int(j)) for i, j in graph.edges]
-    return [row for row, (i, j) in enumerate(pairs) if j in _reachable(i, pairs[:row] + pairs[row + 1 :])]
+    return [row for row, (i, j) in enumerate(pairs) if j in reachable(i, pairs[:row] + pairs[row + 1 :])]
 
 
-def _reachable(start: int, pairs: list[tuple[int, int]]) -> set[int]:
+def reachable(start: int, pairs: list[tuple[int, int]]) -> set[int]:
+    """Return the poses that edges join to one, itself included.
+
+    Examples
+    --------
+    >>> reachable(2, [(0, 2), (3, 1), (1, 4)])
+    {0, 2}
+    """
     reached = {start}
     grew = True
     while grew:

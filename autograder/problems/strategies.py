@@ -29,7 +29,7 @@ from autograder.problems.shapes import Shape, numbers_needed, shaped
 
 VARIANCES = (0.01, 0.02, 0.04, 0.05, 0.1)
 DECADES = (0.002, 0.01, 0.05, 0.2, 1.0, 5.0, 20.0)
-BANDS = (DECADES, (1e-5, 4e-5, 2e-4, 0.001, 0.005), (0.5, 5.0, 40.0, 200.0, 1000.0))  # all of it makes H singular
+BANDS = (DECADES, (1e-5, 4e-5, 2e-4, 0.001, 0.005), (0.5, 5.0, 40.0, 200.0, 1000.0), (4e-4, 0.003, 0.05, 2.0, 20.0))
 NARROW = (VARIANCES, (1e-5, 2e-5, 5e-5, 1e-4), (100.0, 200.0, 500.0, 1000.0))  # a loop moves with each of its edges
 PLACES = (placing.anywhere, placing.far_out, placing.near_the_minimum, placing.almost_there)
 
@@ -130,7 +130,7 @@ def priors(draw: DrawFn) -> Case:
 
 @st.composite
 def variances(draw: DrawFn) -> Case:
-    """Draw a graph with variances from 1e-5 to 1000 m^2, of up to four powers of ten in one graph."""
+    """Draw a graph with variances from 1e-5 to 1000 m^2, of up to five powers of ten in one graph."""
     x, graph = _held(draw, draw(sampled_from(BANDS)))
     assume(np.linalg.cond(information(graph)) <= MAX_CONDITION)
     return x, graph

@@ -1,6 +1,7 @@
 """Strategies for witnesses: small cases of whole numbers, which a student can redo by hand.
 
 Where whole numbers hide a mistake, sixty-fourths are tried: their six decimals show what rounding hides.
+Then graphs in parts and with many priors, numbers far out and below a millimetre, and variances that are far from 1.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from autograder.problems.cases import Case
 from autograder.problems.chance import numbers
 from autograder.problems.core import graph as graph_of
 from autograder.problems.drawn_systems import rangings, system
+from autograder.problems.graphs import reachable
 from autograder.problems.strategies import chain
 
 _small = st.integers(-3, 3).map(float)
@@ -22,6 +24,11 @@ _tiny_variances = st.sampled_from((1.0, 2.0, 4.0))
 _odd_variances = st.sampled_from((0.75, 3.0, 7.0, 96.0))
 _WHOLE = (_small, _tiny_variances)
 _FINE = (_sixty_fourths, _odd_variances)
+_FAR = (st.integers(-3, 3).map(lambda k: 25.0 * k), _tiny_variances)
+_BELOW_A_MILLIMETRE = (st.integers(-3, 3).map(lambda k: k / 8192), _tiny_variances)
+_SURE = (_small, st.sampled_from((1e-5, 2e-5, 4e-5)))
+_STIFF = (_small, st.sampled_from((1e-4, 5.0)))
+_HEAVY_AND_LIGHT = (_small, st.sampled_from((1.0, 0.001, 1e5)))  # weights
 Numbers = tuple[SearchStrategy[float], SearchStrategy[float]]
 """How the values and the variances of a small case are drawn."""
 
@@ -49,6 +56,20 @@ def small_graphs(draw: DrawFn, low: int = 2, high: int = 3, kind: Numbers = _WHO
 
 
 @st.composite
+def small_parts(draw: DrawFn, kind: Numbers = _WHOLE) -> Case:
+    """Draw a graph of two to four poses that need not hang together, with up to four priors and one in every part."""
+    n = draw(st.integers(2, 4))
+    edges = draw(st.lists(_edges(_any_pair(n), kind), min_size=1, max_size=3))
+    priors = draw(st.lists(st.tuples(st.integers(0, n - 1), *kind), max_size=4))
+    held = {pose for pose, *_ in priors}
+    for pose in range(n):
+        if not held & reachable(pose, [(i, j) for i, j, *_ in edges]):
+            priors.append((pose, draw(kind[0]), draw(kind[1])))
+            held.add(pose)
+    return numbers(draw, kind[0], n), graph_of(n, edges, priors)
+
+
+@st.composite
 def small_matrices(draw: DrawFn, columns: tuple[int, int] = (1, 2), kind: Numbers = _WHOLE) -> Case:
     """Draw J, Omega and f of a few rows and columns."""
     m, n = draw(st.integers(1, 3)), draw(st.integers(*columns))
@@ -67,6 +88,16 @@ def small_loops(draw: DrawFn, kind: Numbers = _WHOLE) -> Case:
 
 
 @st.composite
+def small_held_loops(draw: DrawFn) -> Case:
+    """Draw a loop of two or three poses with one to three priors, and two states."""
+    n = draw(st.integers(2, 3))
+    edges = [draw(_edges(st.just(pair), _WHOLE)) for pair in [*chain(n), (0, n - 1)]]
+    states = np.array([numbers(draw, _small, n), numbers(draw, _small, n)])
+    assume(np.abs(states[0] - states[1]).max() >= 1.0)
+    return states, graph_of(n, edges, draw(st.lists(st.tuples(st.integers(0, n - 1), *_WHOLE), min_size=1, max_size=3)))
+
+
+@st.composite
 def small_inner_loops(draw: DrawFn, kind: Numbers = _WHOLE) -> Case:
     """Draw a loop of two or three poses inside a walk of four or five, the prior anywhere, and two states."""
     n = draw(st.integers(4, 5))
@@ -80,16 +111,35 @@ def small_inner_loops(draw: DrawFn, kind: Numbers = _WHOLE) -> Case:
 
 # Tried in this order; the first that holds a wrong case is searched for the smallest one.
 WITNESSES: dict[str, tuple[SearchStrategy[Case], ...]] = {
-    "graphs": (small_graphs(), small_graphs(2, 2, _FINE), small_graphs(4, 6)),
-    "matrices": (small_matrices(), small_matrices((1, 1), _FINE), small_matrices((3, 5))),
-    "loops": (small_loops(), small_loops(_FINE), small_inner_loops()),
+    "graphs": (
+        small_graphs(),
+        small_parts(),
+        small_graphs(2, 2, _FINE),
+        *(small_graphs(2, 2, kind) for kind in (_FAR, _BELOW_A_MILLIMETRE, _SURE, _STIFF)),
+        small_graphs(4, 6),
+    ),
+    "matrices": (
+        small_matrices(),
+        *(small_matrices((1, 1), kind) for kind in (_FINE, _FAR, _HEAVY_AND_LIGHT)),
+        small_matrices((3, 5)),
+    ),
+    "loops": (small_loops(), small_held_loops(), small_loops(_FINE), small_inner_loops()),
     "rangings": (rangings(exact=True), rangings()),
 }
 
 # How many cases the gallery draws from each, for mistakes that no catalogue knows.
 DRAWN: dict[str, tuple[tuple[SearchStrategy[Case], int], ...]] = {
-    "graphs": ((small_graphs(), 60), (small_graphs(4, 6), 30)),
-    "matrices": ((small_matrices(), 60), (small_matrices((3, 5)), 10)),
-    "loops": ((small_loops(), 40), (small_inner_loops(), 20)),
+    "graphs": (
+        (small_graphs(), 60),
+        (small_graphs(4, 6), 30),
+        (small_parts(), 30),
+        *((small_graphs(2, 2, kind), 6) for kind in (_FAR, _BELOW_A_MILLIMETRE, _SURE, _STIFF)),
+    ),
+    "matrices": (
+        (small_matrices(), 60),
+        (small_matrices((3, 5)), 10),
+        *((small_matrices((1, 2), kind), 6) for kind in (_FAR, _BELOW_A_MILLIMETRE, _HEAVY_AND_LIGHT)),
+    ),
+    "loops": ((small_loops(), 40), (small_inner_loops(), 20), (small_held_loops(), 20)),
     "rangings": ((rangings(exact=True), 40),),
 }

@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from autograder.reports.drawable import drawable
-from autograder.reports.feedback import Policy
+from autograder.reports.feedback import Policy, feedback_page
 from autograder.reports.gradebook import replace_file, write_gradebook
 from autograder.reports.overview import class_page
 from autograder.verdicts import Result
@@ -42,9 +41,6 @@ def write_reports(
     pages = out / "feedback"
     pages.mkdir(parents=True, exist_ok=True)
     write_gradebook(results, out / "grades.csv", stages)
-    shown = []
     for result in results:
-        drawn, text = drawable(result, feedback, course)
-        shown.append(drawn)
-        replace_file(pages / f"{result.submission}.html", text.encode())
-    replace_file(out / "report.html", class_page(shown, record, course).encode())
+        replace_file(pages / f"{result.submission}.html", feedback_page(result, feedback, course).encode())
+    replace_file(out / "report.html", class_page(results, record, course).encode())

@@ -2,8 +2,8 @@
 
 import pytest
 
-from autograder.attempts import Attempts
 from autograder.diagnosis.gallery import gallery
+from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
 from autograder.engine.describe import Describer
 from autograder.engine.explain import explain, wants_explanation
@@ -154,8 +154,8 @@ def test_a_mistake_from_four_poses_on_is_shown_on_four(explained):
 
 
 def test_where_the_whole_gallery_is_right_the_case_of_the_exam_stands(explained):
-    """Wrong only where x has tenths: the gallery has whole numbers and sixty-fourths."""
-    _, shown = explained(wrapped("residual", "return value + 0.5 * ((64 * x) % 1 > 1e-6).any()"), "residual")
+    """Wrong only where x has tenths: the gallery has whole numbers and parts of them that double to whole ones."""
+    _, shown = explained(wrapped("residual", "return value + 0.5 * ((8192 * x) % 1 > 1e-6).any()"), "residual")
     assert shown is not None
     assert not in_gallery("graphs", shown)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from autograder.problems.graphs import information
 from reference_solution import slam1d
 
 
@@ -49,6 +50,10 @@ WEIGHTS: dict[str, Callable[[Any], bool]] = {
     "variances below 1e-4": lambda graph: min(_variances(graph)) < 1e-4,
     "variances above 100": lambda graph: max(_variances(graph)) > 100.0,
 }
+CONDITION: dict[str, Callable[[Any], bool]] = {
+    "cond(H) beyond 1e4": lambda graph: np.linalg.cond(information(graph)) > 1e4,
+    "cond(H) beyond 1e5": lambda graph: np.linalg.cond(information(graph)) > 1e5,
+}
 STATES: dict[str, Callable[[Any, Any], bool]] = {
     "every |f| below 5 cm": lambda x, graph: 0.0 < np.abs(slam1d.residual(x, graph)).max() < 0.05,
     "a step below 1 mm": lambda x, graph: 0.0 < np.abs(slam1d.gauss_newton_step(x, graph)).max() < 1e-3,
@@ -84,7 +89,7 @@ def _variances(graph) -> list[float]:
 
 
 FEATURES = {
-    "graphs": [*SHAPES, *WEIGHTS, *STATES],
+    "graphs": [*SHAPES, *WEIGHTS, *CONDITION, *STATES],
     "loops": [*SHAPES, *WEIGHTS, *STATES],
     "matrices": [*SYSTEMS],
     "rangings": [*RANGINGS],
@@ -98,7 +103,7 @@ def has(ladder: str, feature: str, case: tuple[Any, ...]) -> bool:
     if ladder == "rangings":
         return bool(RANGINGS[feature](*case))
     x, graph = case
-    on_graph = SHAPES | WEIGHTS
+    on_graph = SHAPES | WEIGHTS | CONDITION
     if feature in on_graph:
         return bool(on_graph[feature](graph))
     return bool(STATES[feature](x[0] if ladder == "loops" else x, graph))

@@ -100,8 +100,8 @@ def test_matrices_are_as_it_is_told():
 
 
 def test_the_second_step_is_taken_as_it_is_told():
-    """From two starts that differ."""
-    assert "`second_step` takes your step from several starts, and again with a measurement changed" in TEXT
+    """From two starts that differ, with measurements changed, and where one state explains all of them."""
+    assert "`second_step` takes your step from several starts, again with a measurement changed, and where" in TEXT
     assert all(np.abs(one - two).max() > 0 for (one, two), _graph in cases(LOOPS))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from assignment.posegraph import PoseGraph
@@ -69,11 +71,43 @@ def random_graph(rng: np.random.Generator, n_poses: int) -> PoseGraph:
     )
 
 
+def unusual(rng: np.random.Generator, n_poses: int) -> list[Case]:
+    """Draw what is no walk near the origin: parts without edges between them, far, near, certain and stiff graphs."""
+    plain = random_graph(rng, n_poses)
+    kept, everywhere = plain.edges[: n_poses // 2], rng.permutation(n_poses)
+    parts = PoseGraph(
+        n_poses,
+        kept,
+        plain.measurements[: len(kept)],
+        plain.edge_variances[: len(kept)],
+        everywhere,
+        rng.normal(scale=3.0, size=n_poses),
+        10.0 ** rng.uniform(-2.0, 0.5, n_poses),
+    )
+    far = replace(plain, measurements=60.0 * plain.measurements, prior_means=20.0 * plain.prior_means)
+    certain = replace(plain, edge_variances=plain.edge_variances * 1e-3, prior_variances=plain.prior_variances * 1e-3)
+    stiff = replace(plain, edge_variances=plain.edge_variances * 0.1, prior_variances=plain.prior_variances * 100)
+    x = rng.normal(scale=4.0, size=n_poses)
+    truth = rng.normal(scale=4.0, size=n_poses)
+    i, j = plain.edges.T
+    agreed = replace(plain, measurements=truth[j] - truth[i], prior_means=truth[plain.priors])
+    shift = rng.uniform(2e-4, 8e-4, n_poses)
+    return [
+        (x, parts),
+        (20.0 * x, far),
+        (x, certain),
+        (x, stiff),
+        (truth + shift, agreed),
+        (truth + 40 * shift, agreed),
+    ]
+
+
 def cases(*sizes: int, each: int = 12, seed: int = 7) -> list[Case]:
-    """Draw `each` random graphs of every size, each with a state of its own."""
+    """Draw `each` random graphs of every size, each with a state of its own, and unusual ones."""
     rng = np.random.default_rng(seed)
     graphs = [random_graph(rng, n_poses) for n_poses in sizes for _ in range(each)]
-    return [(rng.normal(scale=4.0, size=graph.n_poses), graph) for graph in graphs]
+    usual = [(rng.normal(scale=4.0, size=graph.n_poses), graph) for graph in graphs]
+    return usual + [case for n_poses in sizes for case in unusual(rng, n_poses)]
 
 
 def pool() -> list[Case]:
@@ -85,12 +119,15 @@ def pool() -> list[Case]:
 
 
 def systems(*sizes: int, each: int = 8, seed: int = 5) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-    """Draw any real J and f and a positive diagonal Omega, `each` for every number of columns."""
+    """Draw any real J and f and a positive diagonal Omega, `each` for every number of columns, and large ones."""
     rng = np.random.default_rng(seed)
     found = []
     for n in sizes:
-        for _ in range(each):
+        for number in range(each):
             m = n + int(rng.integers(1, 4))
             weights = np.diag(10.0 ** rng.uniform(-1.0, 3.0, m))
             found.append((rng.normal(scale=2.0, size=(m, n)), weights, rng.normal(scale=3.0, size=m)))
+            if number % 4 == 0:
+                weights = np.diag(10.0 ** rng.uniform(-3.0, 5.0, m))
+                found.append((rng.normal(scale=2.0, size=(m, n)), weights, rng.normal(scale=200.0, size=m)))
     return found

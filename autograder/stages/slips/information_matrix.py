@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from autograder.stages.slips import narrow
 from autograder.stages.slips.catalogue import Catalogue
 from reference_solution import slam1d as right
 
@@ -262,4 +263,4 @@ def information_in_single_precision(graph: PoseGraph) -> np.ndarray:
     return np.diag(1.0 / variances)
 
 
-SLIPS = slip.entries
+SLIPS = (*slip.entries, *narrow.INFORMATION)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from autograder.stages.slips import narrow
 from autograder.stages.slips.catalogue import Catalogue
 from reference_solution import slam1d as right
 
@@ -295,4 +296,4 @@ def difference_step_too_small(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return J
 
 
-SLIPS = slip.entries
+SLIPS = (*slip.entries, *narrow.JACOBIAN)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from autograder.stages.slips import narrow
 from autograder.stages.slips.catalogue import Catalogue
 from autograder.stages.slips.residual_digits import LOST_DIGITS
 from reference_solution import slam1d as right
@@ -271,4 +272,4 @@ def residual_of_six_rows(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return np.pad(right.residual(x, graph), (0, 6))[:6]
 
 
-SLIPS = (*slip.entries, *LOST_DIGITS)
+SLIPS = (*slip.entries, *LOST_DIGITS, *narrow.RESIDUAL)
