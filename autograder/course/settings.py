@@ -41,7 +41,7 @@ class Course:
     stages : tuple of str
         The stages that this course uses, in the order of the homework.
     follow_through : float
-        Share of a stage's points for a step that is wrong only because an earlier function is.
+        Share of the points for a step that is right by itself, where an earlier function is wrong.
     bonus_cap : float
         What a score may reach with bonus points.
     examples : int
@@ -81,7 +81,7 @@ class Course:
     title: str = "1D SLAM"
     points: Mapping[str, float] = field(default_factory=lambda: dict(DEFAULT_POINTS))
     stages: tuple[str, ...] = STAGES
-    follow_through: float = 0.5
+    follow_through: float = 1.0
     bonus_cap: float = 110.0
     examples: int = 200
     seed: int | None = None

@@ -32,7 +32,8 @@ title = "{_DEFAULT.title}"    # name of the homework on reports
 stages = [
 {chr(10).join(f'    "{stage}",' for stage in STAGES)}
 ]
-# Share of a stage's points for a step that is wrong only because an earlier function is: 0 to 1.
+# A mistake is paid for once: share of the points, 0 to 1, for a step that is right by itself where an earlier
+# function is wrong. It is asked again with right functions in the place of the student's own.
 follow_through = {_DEFAULT.follow_through:g}
 # What a score may reach when bonus points are added.
 bonus_cap = {_DEFAULT.bonus_cap:g}

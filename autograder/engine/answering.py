@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from autograder.engine.follow import STAGE
 from autograder.engine.normal import array_of, put
 from autograder.engine.plan import Plan
 from autograder.sandbox.host import Answers, Outputs, Session
@@ -17,12 +18,12 @@ from autograder.verdicts import CheckVerdict, StageStatus, StageVerdict
 
 
 def judge_answers(
-    plan: Plan, sheet: Sheet, given: Answers, session: Session | None, step_is_right: bool
+    plan: Plan, sheet: Sheet, given: Answers, marks: Sequence[StageVerdict], session: Session
 ) -> StageVerdict:
     """Judge the stage `answers`; iterates that follow from the student's own wrong step earn the follow-through share.
 
-    `session` is asked for the student's own steps only where the iterates are wrong and the step
-    is too; None asks nothing.
+    They do where that step earns points in a stage of its own, as `marks` says. Only then is `session`
+    asked for the student's steps.
     """
     points = plan.points[stage.NAME]
     findings = {
@@ -30,7 +31,7 @@ def judge_answers(
         "conclusion": stage.conclusion_finding(sheet, given.conclusion),
     }
     followed = False
-    if given.iterates is not None and not findings["iterates"].right and not step_is_right and session is not None:
+    if given.iterates is not None and not findings["iterates"].right and _earns(plan, marks):
         steps = own_steps(plan, session, sheet)
         followed = steps is not None and stage.follows(sheet.iterates[0], steps, given.iterates)
     checks = []
@@ -57,6 +58,13 @@ def judge_answers(
         message=" ".join(check.message for check in checks if check.message),
         checks=tuple(checks),
     )
+
+
+def _earns(plan: Plan, marks: Sequence[StageVerdict]) -> bool:
+    """Whether the step is wrong on the whole, and has points all the same."""
+    scores = [each for each in marks if plan.has(each.name) and plan.stage(each.name).function == STAGE]
+    right = any(each.name == STAGE and each.status == "passed" for each in scores)
+    return not right and any(each.score > 0 for each in scores)
 
 
 def _status(findings: list[Finding], score: float) -> StageStatus:

@@ -9,8 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from autograder.engine import follow
-from autograder.engine.normal import normalised, put, shapes_of
+from autograder.engine.normal import normalised, shapes_of
 from autograder.engine.plan import Bundle, Plan, Task
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Failure, Loaded, Outputs, Session
@@ -59,13 +58,13 @@ class Collected:
     """All that one submission answered.
 
     `replies` goes by the number of the batch; a check whose function is not defined has none.
-    `own_systems` holds the student's H and b for each rung of the graphs, where an earlier
-    function is wrong and all of them return numbers.
+    `apart` goes by stage and rung: what came where a check was asked again by itself, with right
+    functions in the place of the earlier ones.
     """
 
     loaded: Loaded
     replies: dict[int, Reply] = field(default_factory=dict)
-    own_systems: dict[str, follow.Systems] | None = None
+    apart: dict[tuple[str, str], Reply] = field(default_factory=dict)
     sure: bool = True
 
     def reply(self, task: Task) -> Reply:
@@ -75,7 +74,8 @@ class Collected:
     @property
     def unsure(self) -> bool:
         """Whether anything ran out of time by the clock alone: such a submission is run once more."""
-        failures = [reply.failure for reply in self.replies.values() if isinstance(reply.failure, Failure)]
+        replies = (*self.replies.values(), *self.apart.values())
+        failures = [reply.failure for reply in replies if isinstance(reply.failure, Failure)]
         return not self.sure or any(failure.reason in LATE and not failure.sure for failure in failures)
 
 
@@ -97,8 +97,6 @@ def collect(session: Session, plan: Plan, *, alone: bool = False) -> Collected:
     collected = Collected(session.load(), sure=session.sure)
     hung: set[str] = set()
     for stage, _ in plan.stages:
-        if stage.name == follow.STAGE and (alone or not collected.unsure):
-            collected.own_systems = _own_systems(session, plan, collected)
         for bundle in plan.bundles_of(stage):
             if collected.unsure and not alone:
                 return collected
@@ -125,7 +123,7 @@ def _doubted(session: Session, plan: Plan, bundle: Bundle, hung: set[str]) -> di
     """
     task = bundle.tasks[0]
     function = task.stage.function
-    blamed = sorted(hung & {function, *(follow.EARLIER if function == follow.STAGE else ())})
+    blamed = sorted(hung & {function, *task.stage.builds_on})
     if not blamed:
         return {}
     case = task.cases[int(np.argmin(task.order))]
@@ -234,27 +232,3 @@ def spread(outputs: Outputs, asked: NDArray[np.int64]) -> Outputs:
         reasons={call: outputs.reasons[one] for call, one in enumerate(asked.tolist()) if one in outputs.reasons},
         mutated=-1 if outputs.mutated < 0 else int(np.argmax(asked == outputs.mutated)),
     )
-
-
-def _own_systems(session: Session, plan: Plan, collected: Collected) -> dict[str, follow.Systems] | None:
-    """Ask for the student's own H and b on the graphs, in a child that has not called the step yet."""
-    earlier = [tasks for stage, tasks in plan.stages if stage.name in follow.EARLIER]
-    replies = [collected.replies.get(task.batch) for tasks in earlier for task in tasks]
-    if any(reply is None for reply in replies) or all(reply is not None and reply.passed for reply in replies):
-        return None
-    found = {}
-    for task in plan.tasks:
-        if task.stage.name != follow.STAGE:
-            continue
-        parts = [
-            reply.outputs
-            for name in follow.INGREDIENTS
-            if (reply := collected.replies.get(plan.batch_of(name, task.rung.name))) is not None
-        ]
-        calls = follow.own_calls(task.cases, [part for part in parts if isinstance(part, Outputs)])
-        outputs = None if calls is None else put(session, plan, plan.stage(follow.LAST), calls)
-        systems = None if not isinstance(outputs, Outputs) else follow.own_systems(task.cases, task.patterns, outputs)
-        if systems is None:
-            return None
-        found[task.rung.name] = systems
-    return found

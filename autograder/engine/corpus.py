@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -11,6 +12,7 @@ import msgspec
 import numpy as np
 
 from assignment.posegraph import PoseGraph, Ranging
+from autograder.problems.apart import ladder_apart, set_apart
 from autograder.problems.cases import Case, fields
 from autograder.problems.ladders import Ladder
 from autograder.stages.base import Stage
@@ -41,7 +43,17 @@ def draw_corpus(stages: tuple[Stage, ...], seed: int, examples: int) -> Corpus:
     from autograder.problems.draw import draw_ladder  # noqa: PLC0415 - needs hypothesis, which a worker never loads
 
     ladders: dict[str, Ladder] = {stage.ladder.name: stage.ladder for stage in stages}
-    return _corpus({name: draw_ladder(ladder, seed, examples) for name, ladder in sorted(ladders.items())})
+    found = {name: draw_ladder(ladder, seed, examples) for name, ladder in sorted(ladders.items())}
+    graphs = [graph for rungs in found.values() for cases in rungs.values() for graph in _graphs(cases)]
+    for ladder in {stage.ladder.name: stage.ladder for stage in stages if stage.builds_on}.values():
+        cores = {rung.name: len(rung.core) for rung in ladder.rungs}
+        name = ladder_apart(ladder.name)
+        found[name] = set_apart(found[ladder.name], cores, graphs, f"{seed}/{name}")
+    return _corpus(found)
+
+
+def _graphs(cases: Iterable[Case]) -> list[PoseGraph]:
+    return [argument for case in cases for argument in case if isinstance(argument, PoseGraph)]
 
 
 def _corpus(cases: dict[str, Rungs]) -> Corpus:

@@ -184,7 +184,10 @@ def content_digest() -> str:
     when the grader learns to draw others.
     """
     found = [
-        (stage.name, stage.function, stage.parts, stage.ladder.name, [rung.name for rung in stage.ladder.rungs])
+        (
+            *(stage.name, stage.function, stage.parts, stage.builds_on),
+            *(stage.ladder.name, [rung.name for rung in stage.ladder.rungs]),
+        )
         for stage in sorted(all_stages(), key=lambda stage: stage.name)
     ]
     return hashlib.sha256(msgspec.json.encode(found)).hexdigest()

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+import numpy as np
+from msgspec.structs import replace
+
 from autograder.diagnosis.equivalence import Convention, Rows, convention
-from autograder.engine import follow
 from autograder.engine.collect import Absent, Collected, Reply
 from autograder.engine.evidence import plainly, simplest
 from autograder.engine.normal import arrays_of
@@ -37,6 +39,7 @@ _STATUS_OF_OUTCOME: dict[Outcome, StageStatus] = {
     Outcome.BAD_VALUE: "failed",
     Outcome.OK: "failed",
 }
+_AGAIN = "asked again, on other graphs and with right functions in the place of yours"
 _INTERCHANGEABLE = ("residual", "jacobian", "information_matrix")  # stages that a common convention keeps whole
 
 
@@ -48,12 +51,21 @@ class Judge:
         self._rows: list[Rows] = []
 
     def judge(self, collected: Collected) -> tuple[StageVerdict, ...]:
-        """Judge every stage of one submission."""
+        """Judge every stage of one submission, earlier ones first."""
         accepted = self._convention(collected)
-        return tuple(self._stage(stage, tasks, collected, accepted) for stage, tasks in self.plan.stages)
+        verdicts: dict[str, StageVerdict] = {}
+        for stage, tasks in self.plan.stages:
+            wrong = [name for name in stage.builds_on if name in verdicts and verdicts[name].status != "passed"]
+            verdicts[stage.name] = self._stage(stage, tasks, collected, accepted, wrong)
+        return tuple(verdicts.values())
 
     def _stage(
-        self, stage: Stage, tasks: tuple[Task, ...], collected: Collected, accepted: Convention | None
+        self,
+        stage: Stage,
+        tasks: tuple[Task, ...],
+        collected: Collected,
+        accepted: Convention | None,
+        wrong: Sequence[str],
     ) -> StageVerdict:
         points = self.plan.points[stage.name]
         replies = [collected.reply(task) for task in tasks]
@@ -61,46 +73,23 @@ class Judge:
             checks = [_passed(task, points) for task in tasks]
             return _verdict(stage, points, checks, "passed", remarks=(accepted.remark,))
         judged = [_check(task, reply, points) for task, reply in zip(tasks, replies, strict=True)]
-        checks = [check for check, _ in judged]
         status: StageStatus = next((reason for check, reason in judged if not check.passed), "passed")
-        if stage.name == follow.STAGE and collected.own_systems is not None:
-            checks = [
-                self._followed(check, task, reply, points, collected.own_systems)
-                for check, task, reply in zip(checks, tasks, replies, strict=True)
-            ]
-        followed = all(check.passed or check.points for check in checks)
-        lead = "" if followed or status == "missing" else self._earlier(stage, collected)
-        return _verdict(stage, points, checks, status, lead=lead)
+        checks = [check for check, _ in judged]
+        if not wrong or status == "passed":
+            return _verdict(stage, points, checks, status)
+        apart = [collected.apart.get((stage.name, task.rung.name)) for task in tasks]
+        first = f"Mend {' and '.join(wrong)} first, which the step builds on"
+        checks = [self._by_itself(check, found, first) for check, found in zip(checks, apart, strict=True)]
+        unpaid = [found for check, found in zip(checks, apart, strict=True) if not check.points]
+        still = f"; {_AGAIN}, it is still wrong" if any(each and each.failure is None for each in unpaid) else ""
+        return _verdict(stage, points, checks, status, lead=f"{first}{still}." if unpaid else "")
 
-    def _earlier(self, stage: Stage, collected: Collected) -> str:
-        """Say which earlier functions are wrong, to somebody whose step may be wrong only because of them."""
-        if stage.function != follow.STAGE:
-            return ""
-        wrong = [
-            name
-            for name in follow.EARLIER
-            if any(
-                not reply.passed
-                for task in self.plan.tasks
-                if task.stage.name == name and (reply := collected.replies.get(task.batch)) is not None
-            )
-        ]
-        return f"Mend {' and '.join(wrong)} first, which the step builds on." if wrong else ""
-
-    def _followed(
-        self, check: CheckVerdict, task: Task, reply: Reply, points: float, own: dict[str, follow.Systems]
-    ) -> CheckVerdict:
-        """Pay the follow-through share for a step that solves the student's own equations."""
-        if check.passed or not isinstance(reply.outputs, Outputs) or reply.outputs.outcome.any():
+    def _by_itself(self, check: CheckVerdict, apart: Reply | None, first: str) -> CheckVerdict:
+        """Pay the follow-through share for a check that is right by itself."""
+        if check.passed or apart is None or not apart.passed:
             return check
-        if not own[task.rung.name].solved_by(arrays_of(reply.outputs)):
-            return check
-        return _check_verdict(
-            task,
-            points,
-            earned=self.plan.follow_through,
-            message=f"dx solves your own H dx = -b: the mistake is in an earlier function. {check.message}",
-        )
+        earned = round(check.max_points * self.plan.follow_through, 6)
+        return replace(check, points=earned, message=f"{first}: {_AGAIN}, it is right by itself. {check.message}")
 
     def _convention(self, collected: Collected) -> Convention | None:
         """Find one convention that explains f, J and Omega of every case, where one of them is not as expected."""
@@ -124,7 +113,7 @@ class Judge:
         f, J, omega = (
             None if part is None or not isinstance(part.outputs, Outputs) else part.outputs for part in parts
         )
-        own = None if f is None or J is None or omega is None else follow.own_calls(task.cases, [J, omega, f])
+        own = None if f is None or J is None or omega is None else _rows(task.cases, [J, omega, f])
         return [None] if own is None else own
 
     def _expected_rows(self, stages: list[Stage]) -> list[Rows]:
@@ -136,6 +125,19 @@ class Judge:
         return self._rows
 
 
+def _rows(cases: Sequence[Case], outputs: Sequence[Outputs]) -> list[Case] | None:
+    """Return (J, Omega, f) of the student for every case; None where one is not numbers of the right shape."""
+    if any(each.outcome.any() for each in outputs) or not all(np.isfinite(each.data).all() for each in outputs):
+        return None
+    rows = []
+    for (_, graph), J, omega, f in zip(cases, *map(arrays_of, outputs), strict=True):
+        m, n = graph.n_factors, graph.n_poses
+        if J.shape != (m, n) or omega.shape != (m, m) or f.shape != (m,):
+            return None
+        rows.append((J, omega, f))
+    return rows
+
+
 def _verdict(
     stage: Stage,
     points: float,
@@ -144,10 +146,9 @@ def _verdict(
     remarks: tuple[str, ...] = (),
     lead: str = "",
 ) -> StageVerdict:
-    first = next((check for check in checks if not check.passed), None)
-    score = points if first is None else round(sum(check.points for check in checks), 6)
-    message = "" if first is None else first.message
-    message = " ".join(part for part in (lead, message) if part)
+    failed = sorted((check for check in checks if not check.passed), key=lambda check: check.points > 0)
+    score = round(sum(check.points for check in checks), 6) if failed else points
+    message = " ".join(part for part in (lead, failed[0].message) if part) if failed else ""
     return StageVerdict(
         name=stage.name,
         status="partial" if status != "passed" and score > 0 else status,
@@ -160,13 +161,12 @@ def _verdict(
     )
 
 
-def _check_verdict(task: Task, points: float, earned: float = 0.0, message: str = "") -> CheckVerdict:
-    maximum = round(points * task.share, 6)
+def _failed(task: Task, points: float, message: str) -> CheckVerdict:
     return CheckVerdict(
         name=task.rung.name,
         passed=False,
-        points=round(maximum * earned, 6),
-        max_points=maximum,
+        points=0.0,
+        max_points=round(points * task.share, 6),
         cases=len(task.cases),
         message=message,
     )
@@ -182,8 +182,8 @@ def _check(task: Task, reply: Reply, points: float) -> tuple[CheckVerdict, Stage
         message = reply.failure.message
         if not isinstance(reply.failure, Absent):
             message = f"While {task.stage.function} ran, {message}."
-        return _check_verdict(task, points, message=message), _STATUS_OF_FAILURE[reply.failure.reason]
+        return _failed(task, points, message), _STATUS_OF_FAILURE[reply.failure.reason]
     if reply.passed:
         return _passed(task, points), "passed"
     outcome, message = plainly(task, simplest(task, ~reply.right), reply)
-    return _check_verdict(task, points, message=message), _STATUS_OF_OUTCOME[outcome]
+    return _failed(task, points, message), _STATUS_OF_OUTCOME[outcome]

@@ -34,7 +34,10 @@ def normalised(outputs: Outputs, wanted: list[Shape]) -> Outputs:
     if outputs.shapes == wanted:
         return outputs
     shapes = [want if fits(shape, want) else shape for shape, want in zip(outputs.shapes, wanted, strict=True)]
-    return outputs if shapes == outputs.shapes else replace(outputs, shapes=shapes, reshaped=True)
+    if shapes == outputs.shapes:
+        return outputs
+    was = next(shape for shape, now in zip(outputs.shapes, shapes, strict=True) if shape != now)
+    return replace(outputs, shapes=shapes, reshaped="column" if was[1] == 1 else "row")
 
 
 def fits(shape: Shape, wanted: Shape) -> bool:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 import numpy as np
@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 from assignment.posegraph import PoseGraph, Ranging
 from autograder.diagnosis.gallery import gallery
 from autograder.engine.corpus import Corpus
+from autograder.problems.apart import ladder_apart
 from autograder.problems.cases import Case, simplicity
-from autograder.problems.graphs import information
 from autograder.problems.ladders import Rung
-from autograder.sandbox import frames
+from autograder.sandbox import carried, frames
 from autograder.stages.base import Stage
+from autograder.stages.earlier import Answers, answers
 
 Shared = PoseGraph | Ranging
 MAX_REPLY = 8 * 1024 * 1024  # bytes that one reply may have at the most, where checks are asked together
@@ -65,11 +66,6 @@ class Task:
         return np.argsort(np.array(order))
 
     @cached_property
-    def patterns(self) -> list[NDArray[np.bool_]]:
-        """For each case (x, graph) where H is not 0."""
-        return [information(graph) != 0 for _, graph in self.cases]
-
-    @cached_property
     def prepared(self) -> Any:
         """What the verdict needs, worked out at the first use."""
         return self.stage.prepare(self.cases)
@@ -89,11 +85,16 @@ class Bundle:
 
 @dataclass(frozen=True)
 class Plan:
-    """All tasks of a run, in order, and the inputs of the sandbox as bytes."""
+    """All tasks of a run, in order, and the inputs of the sandbox as bytes.
+
+    `galleries` are asked to explain, `apart` are the checks that can be asked by themselves, on
+    graphs of their own.
+    """
 
     tasks: tuple[Task, ...]
     bundles: tuple[Bundle, ...]
     galleries: tuple[Task, ...]
+    apart: tuple[Task, ...]
     points: Mapping[str, float]
     follow_through: float
     corpus: Corpus
@@ -129,9 +130,12 @@ class Plan:
         """Return the small cases of a stage, or of the facet that one rung sees, for whoever is wrong."""
         return next(task for task in self.galleries if task.stage is stage)
 
-    def batch_of(self, stage: str, rung: str) -> int:
-        """Return the number of the batch of one check; -1 where the run has no such check."""
-        return next((task.batch for task in self.tasks if (task.stage.name, task.rung.name) == (stage, rung)), -1)
+    @cached_property
+    def tables(self) -> list[frames.Table]:
+        """What the earlier functions answer for the graphs of `apart`; made when it is first needed."""
+        calls = (call for task in self.apart for case in task.cases for call in task.stage.calls(case))
+        graphs = dict.fromkeys(argument for call in calls for argument in call if isinstance(argument, PoseGraph))
+        return [_table(each, self.objects) for each in answers(tuple(graphs))]
 
     def batch(self, stage: Stage, calls: Sequence[Case]) -> frames.Batch:
         """Make a batch of calls that can be sent as it is; graphs of the corpus go by number."""
@@ -156,7 +160,7 @@ class Plan:
 
 
 def make_plan(
-    stages: Sequence[Stage], points: Mapping[str, float], corpus: Corpus, follow_through: float = 0.5
+    stages: Sequence[Stage], points: Mapping[str, float], corpus: Corpus, follow_through: float = 1.0
 ) -> Plan:
     """Lay out every call of a run."""
     batches: list[frames.Batch] = []
@@ -183,8 +187,24 @@ def make_plan(
     bundles = _bundles(tasks, batches)
     facets = dict.fromkeys(each.stage for each in tasks)
     galleries = [task(stage, _GALLERY, gallery(stage.ladder.name)) for stage in facets]
+    apart = [
+        task(stage, rung, corpus.cases[ladder_apart(stage.ladder.name)][rung.name])
+        for stage in stages
+        if stage.builds_on
+        for rung in stage.ladder.rungs
+    ]
     inputs = frames.encode_inputs(frames.Inputs(objects=[shared_data(each) for each in objects], batches=batches))
-    return Plan(tuple(tasks), tuple(bundles), tuple(galleries), points, follow_through, corpus, inputs, objects)
+    return Plan(
+        tasks=tuple(tasks),
+        bundles=tuple(bundles),
+        galleries=tuple(galleries),
+        apart=tuple(apart),
+        points=points,
+        follow_through=follow_through,
+        corpus=corpus,
+        inputs=inputs,
+        objects=objects,
+    )
 
 
 def _bundles(tasks: Sequence[Task], batches: list[frames.Batch]) -> list[Bundle]:
@@ -240,6 +260,19 @@ def _argument(argument: Any, objects: Mapping[Shared, int]) -> frames.Argument:
         known = objects.get(argument)
         return shared_data(argument) if known is None else known
     return _array(argument)
+
+
+def _table(known: Answers, objects: Mapping[Shared, int]) -> frames.Table:
+    """Turn what a function answers into a table for the sandbox; graphs go by number."""
+    entries = [
+        carried.Entry(
+            [_argument(each, objects) for each in key],
+            [carried.Part(_array(constant), None if factor is None else _array(factor)) for constant, factor in parts],
+        )
+        for key, parts in known.rows
+    ]
+    shapes: list[Literal["", "column", "row"]] = [""] * len(known.rows[0][1])
+    return frames.Table(known.function, list(known.places), known.vector, shapes, "array", entries)
 
 
 def _array(values: np.ndarray) -> frames.Array:

@@ -17,7 +17,7 @@ from autograder.engine.collect import collect
 from autograder.engine.corpus import case_of, load_corpus
 from autograder.engine.describe import Describer
 from autograder.engine.explain import explain
-from autograder.engine.follow import STAGE
+from autograder.engine.follow import follow
 from autograder.engine.judge import Judge
 from autograder.engine.messages import Answer, Grade, Graded, Message, Orders, Ready, Trouble
 from autograder.engine.plan import Plan, make_plan
@@ -107,13 +107,14 @@ class Examiner:
         sheet = _sheet(job)
         with self.sandbox.open(job.source) as session:
             collected = collect(session, self.plan, alone=job.alone)
+            if job.alone or not collected.unsure:
+                follow(session, self.plan, collected)
             if collected.unsure and not job.alone:
                 return Graded((), (), unsure=True, seconds=time.perf_counter() - began, written={}, iterates=None)
             marks = list(self.judge.judge(collected))
             given = collected.loaded.answers
             if answers.NAME in self.plan.points:
-                step_is_right = any(verdict.name == STAGE and verdict.status == "passed" for verdict in marks)
-                marks.append(judge_answers(self.plan, sheet, given, session, step_is_right))
+                marks.append(judge_answers(self.plan, sheet, given, marks, session))
             attempt = Attempts()  # the marks are final: from here on only words are added
             stages = attempt("describing", self.describer.describe, collected, marks, attempt) or marks
             stages = attempt("explaining", explain, session, self.plan, stages, collected.replies, attempt) or stages

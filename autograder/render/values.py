@@ -41,7 +41,7 @@ POINTS = {
 WORDS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 ANSWER_POINTS = {"iterates": 3, "conclusion": 2, "written_2": 2, "written_3": 3, "bonus": 5}
 
-FOLLOW_THROUGH = 0.5  # share of a step that is wrong only because of what it calls
+FOLLOW_THROUGH = 1.0  # share of the points of a step that is right once the functions it calls are
 OLDEST_PYTHON = "3.9"  # on which a student's files run
 
 
@@ -64,7 +64,7 @@ def values(problem: Problem) -> dict[str, Any]:
         "points": POINTS,
         "answer_points": ANSWER_POINTS,
         "all_points": sum(POINTS.values()) + sum(ANSWER_POINTS.values()) - ANSWER_POINTS["bonus"],
-        "followed": number(FOLLOW_THROUGH * POINTS["gauss_newton_step"]),
+        "followed": "all" if FOLLOW_THROUGH == 1 else f"{number(100 * FOLLOW_THROUGH)} %",
         "oldest_python": OLDEST_PYTHON,
         "explore_minutes": 60,
         **_counted(),

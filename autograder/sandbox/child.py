@@ -80,9 +80,6 @@ class Child:
         return frames.LoadReport(request.nonce, submission.functions(), submission.remarks, submission.answers())
 
     def _replace(self, request: Replace) -> frames.Replaced:
-        shared: batches.Shared = {}
-        made = [batches.build_object(data, self._posegraph, shared) for data in request.objects]
-        self._objects = [*self._objects, *made]
         if self._submission is not None:
             self._submission.replace(request.tables, self._objects, self._posegraph)
         return frames.Replaced(request.nonce)

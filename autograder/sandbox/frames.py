@@ -103,13 +103,9 @@ class Call(Frame, tag="call"):
 
 
 class Replace(Frame, tag="replace"):
-    """Ask to put functions that answer from tables in the place of the submission's own.
-
-    The objects are numbered from where those of the inputs end; calls that follow may name them too.
-    """
+    """Ask to put functions that answer from tables in the place of the submission's own."""
 
     nonce: Nonce
-    objects: list[GraphData | RangingData]
     tables: list[Table]
 
 

@@ -123,8 +123,8 @@ class Outputs:
         Words for the cases that are not OK; a batch has a bounded number of different ones.
     mutated : int
         The first case whose input array the call changed in place, -1 if none.
-    reshaped : bool
-        Whether a column or a row was read as the vector that it stands for; set when the engine normalises.
+    reshaped : "", "column" or "row"
+        What was read as the vector that it stands for, if anything; set when the engine normalises.
     """
 
     outcome: np.ndarray
@@ -134,7 +134,7 @@ class Outputs:
     data: np.ndarray
     reasons: dict[int, str]
     mutated: int
-    reshaped: bool = False
+    reshaped: Literal["", "column", "row"] = ""
 
 
 def read_outputs(report: BatchReport, expected: Expected) -> Outputs:

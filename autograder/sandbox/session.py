@@ -75,14 +75,14 @@ class Session:
         nonce = secrets.randbits(62)
         return self._ask(frames.Call(nonce, batch), nonce, Expected.of(batch), share)
 
-    def replace(self, objects: list[frames.GraphData | frames.RangingData], tables: list[Table]) -> Failure | None:
+    def replace(self, tables: list[Table]) -> Failure | None:
         """Begin again in a fresh child, with functions that answer from tables in the place of the submission's own.
 
         They stand there until that child ends: `fresh` ends it, and so does a call that fails.
         """
         self._discard()
         nonce = secrets.randbits(62)
-        reply = self._exchange(frames.Replace(nonce, objects, tables), nonce, frames.LOAD_BOUND, 1.0)
+        reply = self._exchange(frames.Replace(nonce, tables), nonce, frames.LOAD_BOUND, 1.0)
         if isinstance(reply, frames.Replaced):
             return None
         return (

@@ -93,6 +93,8 @@ def conclusion_finding(sheet: Sheet, got: str | None) -> Finding:
 def follows(start: Array, steps: Array, got: Array | None) -> bool:
     """Whether reported iterates are those of the student's own steps from the start.
 
+    Steps that are zero, or that lead to zero, show no work that could follow from anything.
+
     Parameters
     ----------
     start : (n,) float array
@@ -110,4 +112,7 @@ def follows(start: Array, steps: Array, got: Array | None) -> bool:
     own = np.vstack([start, start + np.cumsum(steps, axis=0)])
     if got is None or got.shape != own.shape or not np.isfinite(own).all():
         return False
-    return bool((np.abs(got - own) <= CLOSE * (1.0 + np.abs(own).max())).all())
+    close = CLOSE * (1.0 + np.abs(own).max())
+    if np.abs(steps).max() <= close or np.abs(own[1]).max() <= close:
+        return False
+    return bool((np.abs(got - own) <= close).all())

@@ -112,6 +112,9 @@ class Stage(ABC):
         Share of the points for each rung of the ladder; they add up to 1.
     takes_truth : bool
         Whether truth values are a proper answer.
+    builds_on : tuple of str
+        Functions of the submission that this one may call. Where it is wrong and one of them is
+        too, it is asked once more with right answers in their place.
     """
 
     name: str
@@ -124,6 +127,7 @@ class Stage(ABC):
     ladder: Ladder
     shares: dict[str, float]
     takes_truth: bool = False
+    builds_on: tuple[str, ...] = ()
 
     def facet(self, rung: str) -> Stage:
         """Return the stage as one rung sees it: itself, unless its checks call different functions."""

@@ -12,6 +12,7 @@ from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
 from autograder.stages.base import Answers, Array, Batch, Shape, Stage, aligned
+from autograder.stages.earlier import FUNCTIONS
 from autograder.stages.wording import number, vector
 from reference_solution import slam1d
 
@@ -56,6 +57,7 @@ class GaussNewtonStep(Stage):
     position = 5
     points = 20.0
     ladder = GRAPHS
+    builds_on = FUNCTIONS
     shares = {
         "worked_example": 0.1,
         "single_loops": 0.2,

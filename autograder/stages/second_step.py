@@ -14,6 +14,7 @@ from autograder.problems.cases import Case
 from autograder.problems.graphs import agreeing, information, loop_edges, nudged
 from autograder.problems.ladders import LOOPS
 from autograder.stages.base import Answers, Array, Batch, Shape, Stage, aligned
+from autograder.stages.earlier import FUNCTIONS
 from autograder.stages.wording import number, vector
 from reference_solution import slam1d
 
@@ -62,6 +63,7 @@ class SecondStep(Stage):
     position = 6
     points = 10.0
     ladder = LOOPS
+    builds_on = FUNCTIONS
     shares = {"worked_example": 0.2, "single_loops": 0.4, "loops_in_graphs": 0.4}
 
     def calls(self, case: Case) -> list[Case]:

@@ -8,6 +8,7 @@ from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
 from autograder.engine.corpus import draw_corpus
 from autograder.engine.describe import Describer
+from autograder.engine.follow import follow
 from autograder.engine.judge import Judge
 from autograder.engine.plan import make_plan
 from autograder.sandbox.frames import Source
@@ -35,6 +36,7 @@ def grade_source(plan):
             cells = [text] if kind == "module" else text
             with sandbox.open(Source(kind=kind, cells=cells, name="submission.py")) as session:
                 collected = collect(session, plan)
+                follow(session, plan, collected)
                 verdicts = describer.describe(collected, judge.judge(collected), Attempts())
             return {verdict.name: verdict for verdict in verdicts}
 

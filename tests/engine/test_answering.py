@@ -11,6 +11,7 @@ from autograder.problems.copied import Numbers
 from autograder.problems.families import family
 from autograder.problems.secret import Secret
 from autograder.problems.variants import draw_variant, published
+from reference_solution import slam1d
 from tests.engine.conftest import REFERENCE
 
 SETTINGS = Settings(examples=5, time_limit=0.5, workers=1)
@@ -73,14 +74,73 @@ def test_a_wrong_belief_is_named_with_something_to_think_about(graded, belief):
     assert f"choice {letter('worked-example')}".lower() not in stages["answers"].message.lower()
 
 
-def test_iterates_of_a_wrong_step_earn_the_follow_through_share(graded):
-    """Half a step is wrong; the iterates that it leads to are half right."""
+def own_iterates(step):
+    """Take three steps from the start of the worked example."""
     x = [EXAMPLE.start]
     for _ in range(3):
-        x.append(x[-1] + 0.5 * (EXAMPLE.iterates[1] - x[-1]))
-    stages, _ = graded(REFERENCE + HALF + answered(x, letter("worked-example")))
-    assert stages["answers"].score == pytest.approx(0.5 * 3 + 2)
+        x.append(x[-1] + step(x[-1]))
+    return np.array(x)
+
+
+def test_iterates_follow_from_a_step_that_is_right_by_itself(graded):
+    """A wrong Omega makes the step wrong, and the iterates; both are right by themselves."""
+    text = REFERENCE.replace("1.0 / variances", "np.append(2.0, 1.0 / variances[1:])")
+    assert text != REFERENCE
+    omega = np.diag([2.0, 100.0, 100.0, 100.0, 100.0, 1000.0])
+
+    def step(x):
+        J, f = slam1d.jacobian(x, EXAMPLE.graph), slam1d.residual(x, EXAMPLE.graph)
+        return np.linalg.solve(J.T @ omega @ J, -J.T @ omega @ f)
+
+    stages, _ = graded(text + answered(own_iterates(step), letter("worked-example")))
+    assert stages["answers"].score == 5.0
     assert "your own step" in stages["answers"].message
+
+
+def test_iterates_of_a_step_that_earns_nothing_earn_nothing(graded):
+    """Half a step has no points in any stage, so there are none for where it leads."""
+    halves = own_iterates(lambda x: 0.5 * (EXAMPLE.iterates[1] - x))
+    stages, _ = graded(REFERENCE + HALF + answered(halves, letter("worked-example")))
+    assert (stages["gauss_newton_step"].score, stages["second_step"].score, stages["answers"].score) == (0, 0, 2)
+
+
+TRIVIAL = {
+    "zero": (
+        "\n\ndef residual(x, graph):\n    return np.zeros(graph.n_factors)\n",
+        np.tile(EXAMPLE.start, (4, 1)),
+    ),
+    "minus x": (
+        "\n\ndef residual(x, graph):\n    return jacobian(x, graph) @ x\n",
+        np.vstack([EXAMPLE.start, np.zeros((3, 5))]),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", TRIVIAL)
+def test_iterates_that_follow_from_nothing_earn_nothing(graded, name):
+    """A nonsense residual makes a right step zero, or minus x: such iterates show no work."""
+    text, iterates = TRIVIAL[name]
+    stages, _ = graded(REFERENCE + text + answered(iterates, letter("worked-example")))
+    assert stages["gauss_newton_step"].score == 20
+    assert stages["answers"].score == 2.0
+
+
+FORGED = {
+    "zero": ("np.zeros(graph.n_poses)", np.tile(EXAMPLE.start, (4, 1))),
+    "the sum minus x": (
+        "graph.measurements.sum() - x",
+        np.vstack([EXAMPLE.start, np.full((3, 5), EXAMPLE.graph.measurements.sum())]),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FORGED)
+def test_a_forged_step_pays_for_no_iterates(graded, name):
+    """Four equal iterates, or three that are the sum of the measurements, follow from a step that has no points."""
+    step, iterates = FORGED[name]
+    text = f"\n\ndef gauss_newton_step(x, graph):\n    return {step}\n"
+    stages, _ = graded(REFERENCE + text + answered(iterates, letter("worked-example")))
+    assert (stages["gauss_newton_step"].score, stages["second_step"].score, stages["answers"].score) == (0, 0, 2)
 
 
 def test_wrong_iterates_of_a_right_step_earn_nothing(graded):

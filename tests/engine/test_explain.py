@@ -7,6 +7,7 @@ from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
 from autograder.engine.describe import Describer
 from autograder.engine.explain import explain, wants_explanation
+from autograder.engine.follow import follow
 from autograder.engine.judge import Judge
 from autograder.problems.plain import plain
 from autograder.sandbox.frames import Source
@@ -26,6 +27,7 @@ def explained(plan):
             source = Source(kind="module", cells=[text], name="submission.py")
             with sandbox.open(source) as session:
                 collected = collect(session, plan)
+                follow(session, plan, collected)
                 judged = describer.describe(collected, judge.judge(collected), Attempts())
                 assert any(wants_explanation(verdict) for verdict in judged if verdict.name == name)
                 verdicts = {each.name: each for each in explain(session, plan, judged, collected.replies, Attempts())}
@@ -171,8 +173,10 @@ def test_what_remembers_the_exam_is_asked_in_a_fresh_child(explained):
 
 
 def test_a_step_on_a_wrong_function_is_told_to_mend_that_first(explained):
-    """Where residual forgets a measurement, the second step keeps the case of the exam and says what comes first."""
+    """Where residual forgets a measurement and the step halves, the step keeps its case and says what comes first."""
     text = submission_text(next(s for s in slips("residual") if s.identifier.startswith("loop_residual_w")), "residual")
+    text += "\n\n_whole = gauss_newton_step\n\n\ndef gauss_newton_step(x, graph):\n    return 0.5 * _whole(x, graph)\n"
     verdict, shown = explained(text, "second_step")
-    assert verdict.message.startswith("Mend residual first")
+    assert verdict.message.startswith("Mend residual first, which the step builds on; asked again")
+    assert "it is still wrong" in verdict.message
     assert shown["graph"] not in [plain(graph) for _, graph in gallery("loops")]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from autograder.sandbox.carried import Entry, Part
-from autograder.sandbox.frames import Array, GraphData, Source, Table
+from autograder.sandbox.frames import Argument, Array, GraphData, Source, Table
 from autograder.sandbox.host import Failure, Outputs
 from tests.sandbox.conftest import GRAPH, batch
 
@@ -21,7 +21,7 @@ OTHER = GraphData(
     GRAPH.prior_means,
     GRAPH.prior_variances,
 )
-LISTED = 2  # its number: the inputs of these tests hold two objects
+LISTED = OTHER
 FACTOR = np.array([[1.0, 0.0, 2.0], [0.0, 3.0, 0.0]])
 CONSTANT = np.array([10.0, 20.0])
 X = np.array([0.0, 1.0, 2.0])  # what the tests' calls are made with
@@ -39,11 +39,11 @@ def table(shape: Literal["", "column", "row"] = "", kind: Literal["array", "list
     return Table("g", [1], 0, [shape], kind, [Entry([LISTED], [Part(array(CONSTANT), array(FACTOR))])])
 
 
-def asked(sandbox, text: str, tables: list[Table], graph: object = LISTED) -> Outputs | Failure:
+def asked(sandbox, text: str, tables: list[Table], graph: Argument = LISTED) -> Outputs | Failure:
     """Call f(x, graph) of a submission in which g answers from a table."""
     with sandbox.open(Source("module", [text], "student")) as session:
         session.load()
-        assert session.replace([OTHER], tables) is None
+        assert session.replace(tables) is None
         return session.call(batch(arguments=(array(X), graph)))
 
 
@@ -132,7 +132,7 @@ def test_answers_are_copies(sandbox) -> None:
 def test_the_next_child_has_no_tables(sandbox) -> None:
     """Once that child has gone, the function is the submission's own again."""
     with sandbox.open(Source("module", [OWN + CALLERS["by its name"]], "student")) as session:
-        assert session.replace([OTHER], [table()]) is None
+        assert session.replace([table()]) is None
         session.fresh()
         found = session.call(batch(arguments=(array(X), OTHER)))
     assert isinstance(found, Outputs)

@@ -1,4 +1,4 @@
-# expect: jacobian=partial:difference_step_too_small gauss_newton_step=partial+follow_through second_step=partial others=passed; J11 of the catalogue: a forward difference with h = 1e-9.
+# expect: jacobian=partial:difference_step_too_small gauss_newton_step=partial+follow_through second_step=partial+follow_through others=passed; J11 of the catalogue: a forward difference with h = 1e-9.
 import numpy as np
 
 

@@ -1,4 +1,4 @@
-# expect: residual=failed:residual_in_single_precision information_matrix=failed:information_in_single_precision normal_equations=partial:normal_equations_in_single_precision gauss_newton_step=partial+follow_through second_step=partial:single_precision_leaves_a_rest others=passed remark=reduced_precision; style 42: single precision throughout.
+# expect: residual=failed:residual_in_single_precision information_matrix=failed:information_in_single_precision normal_equations=partial:normal_equations_in_single_precision gauss_newton_step=partial+follow_through second_step=partial+follow_through others=passed remark=reduced_precision; style 42: single precision throughout.
 import numpy as np
 
 

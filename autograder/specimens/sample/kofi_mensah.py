@@ -1,4 +1,4 @@
-# expect: jacobian=partial:jacobian_of_worked_example gauss_newton_step=partial second_step=partial others=passed remark=integers; the 6 by 5 Jacobian of the worked example, typed in.
+# expect: jacobian=partial:jacobian_of_worked_example gauss_newton_step=partial+follow_through second_step=partial+follow_through others=passed remark=integers; the 6 by 5 Jacobian of the worked example, typed in.
 import numpy as np
 
 
