@@ -136,9 +136,10 @@ def _hear_signals() -> None:
 
 def _end_tracker() -> None:
     """End the process that multiprocessing starts beside its workers; left alone, it ends a moment after this one."""
-    tracker = sys.modules.get("multiprocessing.resource_tracker")
-    if tracker is not None:
-        tracker._resource_tracker._stop()
+    module = sys.modules.get("multiprocessing.resource_tracker")
+    tracker = getattr(module, "_resource_tracker", None)
+    if getattr(tracker, "_pid", None) is not None:
+        tracker._stop()
 
 
 def _say(sentence: str, code: int) -> int:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shlex
 import shutil
+import sys
 import textwrap
 from importlib.resources import as_file, files
 from importlib.resources.abc import Traversable
@@ -79,8 +81,21 @@ def command(out: Path, workers: int | None, allow_unconfined: bool) -> int:
     click.echo("\n4. Where to look\n")
     for name in ("report.html", "feedback", "grades.csv", "results", "class"):
         click.echo(f"   {out / name}")
-    click.echo(f"\n   Your own class: autograder grade FOLDER -o {out.parent / 'graded'}")
+    click.echo("\n   Your own class goes the same way; type this, with your folder in the place of the demo's:\n")
+    click.echo(f"   {_program()} grade {shlex.quote(str(out / 'class'))} -o {shlex.quote(str(out.parent / 'graded'))}")
     return exit_code(run)
+
+
+def _program() -> str:
+    """Return what starts this program when it is typed here: its name where a shell finds it, else its path."""
+    script = Path(sys.executable).parent / "autograder"
+    if not script.exists():
+        return f"{shlex.quote(sys.executable)} -m autograder"
+    found = shutil.which("autograder")
+    if found is not None and Path(found).absolute() == script.absolute():
+        return "autograder"
+    here = Path.cwd()
+    return shlex.quote(str(script.relative_to(here) if script.is_relative_to(here) else script))
 
 
 def copy_files(source: Traversable, target: Path) -> None:

@@ -45,7 +45,7 @@ def connect(address: str) -> Any:
         from distributed import Client  # noqa: PLC0415 - an extra that not everybody installs
     except ImportError:
         raise UsageError(
-            "--scheduler needs dask.distributed; install the extra: pip install 'slam1d-homework[cluster]'."
+            "--scheduler needs dask.distributed; in the folder of this repository: pip install '.[cluster]'."
         ) from None
     try:
         return Client(address, timeout=CONNECT_SECONDS, set_as_default=False, name="autograder")

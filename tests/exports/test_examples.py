@@ -5,15 +5,16 @@ from __future__ import annotations
 import json
 import re
 import runpy
+import shlex
 import shutil
 import subprocess
 import sys
-import textwrap
 from pathlib import Path
 from typing import Any
 
 import click
 import pytest
+import yaml
 
 from autograder.cli import cli
 from autograder.stages.catalogue import slips
@@ -30,23 +31,37 @@ REFERENCE = Path(slam1d.__file__).read_text(encoding="utf-8")
 SHOWN = re.findall(r"(?:^|`)(autograder (?:export \w+|grade)[^`\n#&]*)", PAGE, flags=re.MULTILINE)
 
 
-def steps(path: Path) -> list[str]:
-    """Return what the steps of a workflow run, in order."""
-    text = path.read_text(encoding="utf-8")
-    blocks = re.findall(r"^ +run: \|\n((?: {10}.*\n?)+)|^ +run: (.+)$", text, flags=re.MULTILINE)
-    return [textwrap.dedent(block) or line for block, line in blocks]
+def steps(path: Path) -> list[dict[str, Any]]:
+    """Return the steps of a workflow's only job, in order."""
+    (job,) = yaml.safe_load(path.read_text(encoding="utf-8"))["jobs"].values()
+    found: list[dict[str, Any]] = job["steps"]
+    return found
 
 
 def shell(command: str, folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run a step as GitHub does, with the Python of this environment."""
+    """Run a step as GitHub does where it names no shell, with the Python of this environment."""
+    path = f"{folder}/bin:{Path(sys.executable).parent}:/usr/bin:/bin"
     return subprocess.run(
-        ["bash", "-e", "-o", "pipefail", "-c", command],
+        ["bash", "-e", "-c", command],
         cwd=folder,
-        env={"PATH": f"{Path(sys.executable).parent}:/usr/bin:/bin", "HOME": str(folder), **environment},
+        env={"PATH": path, "HOME": str(folder), **environment},
         capture_output=True,
         text=True,
         check=False,
     )
+
+
+def run_job(path: Path, folder: Path, **environment: str) -> tuple[bool, list[str]]:
+    """Run the steps but for installations; return whether all passed, and the folders that are uploaded."""
+    green, uploaded = True, []
+    for step in steps(path):
+        if not green and "!cancelled()" not in str(step.get("if")):
+            continue
+        if "upload-artifact" in step.get("uses", ""):
+            uploaded.append(step["with"]["path"])
+        elif "run" in step and "install" not in step["run"]:
+            green = green and shell(step["run"], folder, **environment).returncode == 0
+    return green, uploaded
 
 
 @pytest.mark.parametrize("line", sorted(set(SHOWN)))
@@ -76,39 +91,59 @@ def test_a_workflow_is_plain_and_careful(path: Path) -> None:
     assert "permissions:\n  contents: read\n" in text
     assert "timeout-minutes:" in text
     assert steps(path)
-    assert not [step for step in steps(path) if "${{" in step]
+    assert not [step for step in steps(path) if "${{" in step.get("run", "")]
+
+
+STUB = (ROOT / "assignment" / "slam1d.py").read_text(encoding="utf-8")
 
 
 @pytest.mark.slow
-def test_the_self_check_is_red_for_a_mistake_only(tmp_path: Path) -> None:
-    """The step passes the reference and the stub, and fails a slip."""
-    check = steps(DOCS / "examples" / "self-check.yml")[-1]
-    for name in ("posegraph.py", "self_check.py", "slam1d.py"):
+@pytest.mark.parametrize(
+    ("text", "green"),
+    [
+        (STUB, True),
+        (REFERENCE, True),
+        (submission_text(slips("jacobian")[0], "jacobian"), False),
+        (STUB + "\nraise RuntimeError\n", False),
+        ("def residual(x, graph:\n", False),
+        (None, False),
+    ],
+    ids=["stub", "reference", "slip", "raises", "does not parse", "missing"],
+)
+def test_the_self_check_is_red_for_a_mistake_only(tmp_path: Path, text: str | None, green: bool) -> None:
+    """The job passes the reference and the stub; it fails a slip, and a file that does not run."""
+    for name in ("posegraph.py", "self_check.py"):
         shutil.copy(ROOT / "assignment" / name, tmp_path)
-    assert shell(check, tmp_path).returncode == 0
-    stub = (tmp_path / "slam1d.py").read_text(encoding="utf-8")
-    (tmp_path / "slam1d.py").write_text(REFERENCE, encoding="utf-8")
-    done = shell(check, tmp_path)
-    assert (done.returncode, "FAIL" in done.stdout, "PASS" in done.stdout) == (0, False, True)
-    wrong = submission_text(slips("jacobian")[0], "jacobian")
-    (tmp_path / "slam1d.py").write_text(wrong, encoding="utf-8")
-    assert shell(check, tmp_path).returncode == 1
-    (tmp_path / "slam1d.py").write_text(stub + "\nraise RuntimeError\n", encoding="utf-8")
-    assert shell(check, tmp_path).returncode == 1
+    if text is not None:
+        (tmp_path / "slam1d.py").write_text(text, encoding="utf-8")
+    assert run_job(DOCS / "examples" / "self-check.yml", tmp_path) == (green, [])
+
+
+# An autograder that finds this machine ready at once, and one of the class not to be graded.
+THREE = """#!/bin/sh
+test "$1" = doctor && exit 0
+{} -m autograder "$@"
+exit {}
+"""
 
 
 @pytest.mark.slow
-def test_a_folder_is_graded(tmp_path: Path) -> None:
-    """The steps after the installation write the reports that the artifact holds."""
+@pytest.mark.parametrize("code", [0, 3])
+def test_a_folder_is_graded(tmp_path: Path, code: int) -> None:
+    """The reports are uploaded, also where the run is red because one could not be graded."""
     (tmp_path / "submissions").mkdir()
     (tmp_path / "submissions" / "ann.py").write_text(REFERENCE, encoding="utf-8")
+    (tmp_path / "submissions" / "bob.py").write_text("def residual(x, graph:\n", encoding="utf-8")
     course = "[grading]\nexamples = 5\n"
     (tmp_path / "course.toml").write_text(course, encoding="utf-8")
-    grade = steps(DOCS / "examples" / "grade-folder.yml")[-1]
-    done = shell(grade.replace("autograder doctor\n", ""), tmp_path, SEED="3")
-    assert done.returncode == 0, done.stderr
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "bin" / "autograder").write_text(THREE.format(shlex.quote(sys.executable), code), encoding="utf-8")
+    (tmp_path / "bin" / "autograder").chmod(0o755)
+    path = DOCS / "examples" / "grade-folder.yml"
+    assert run_job(path, tmp_path, SEED="3", PYTHONPATH=str(ROOT)) == (code == 0, ["graded"])
     assert json.loads((tmp_path / "graded" / "run.json").read_text(encoding="utf-8"))["seed"] == 3
     assert (tmp_path / "graded" / "feedback" / "ann.html").exists()
+    assert (tmp_path / "graded" / "feedback" / "bob.html").exists()
 
 
 @pytest.mark.slow
