@@ -138,7 +138,7 @@ def _end_tracker() -> None:
     """End the process that multiprocessing starts beside its workers; left alone, it ends a moment after this one."""
     module = sys.modules.get("multiprocessing.resource_tracker")
     tracker = getattr(module, "_resource_tracker", None)
-    if getattr(tracker, "_pid", None) is not None:
+    if tracker is not None and tracker._pid is not None:
         tracker._stop()
 
 
