@@ -73,7 +73,8 @@ class Result(msgspec.Struct, frozen=True, kw_only=True):
     are points that a human reader has still to give; as long as there are any, the score is
     `provisional`. `locks` says in words what the level of `confinement` stands for;
     an upload of which nothing was run has none. `exam` is the digest of the exam file. `flags` are for
-    staff only, such as numbers that belong to somebody else. `written` are the answers in words by
+    staff only, such as numbers that belong to somebody else. `in_vain` says of functions that somebody tried to write
+    why they are not there; it stands first on the student's page. `written` are the answers in words by
     question, and `images` the pictures in them, by name, as data URIs. `submitted` and `late` are
     what the system of the course says of the time. What people decide later, the `comments` on
     written answers by question and the `adjustments`, is merged into reports and never stored here.
@@ -92,6 +93,7 @@ class Result(msgspec.Struct, frozen=True, kw_only=True):
     stages: tuple[StageVerdict, ...] = ()
     notes: tuple[str, ...] = ()
     flags: tuple[str, ...] = ()
+    in_vain: tuple[str, ...] = ()
     written: dict[str, str] = {}
     images: dict[str, str] = {}
     comments: dict[str, str] = {}

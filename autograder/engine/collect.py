@@ -21,10 +21,10 @@ ONE_CASE = 1 / 10  # of the time of a check, for one simple case
 
 @dataclass(frozen=True)
 class Absent:
-    """Why there are no numbers: the submission has no such function."""
+    """Why there are no numbers: the submission has no such function, or somebody tried to write it in vain."""
 
     message: str
-    reason: Literal["missing"] = "missing"
+    reason: Literal["missing", "undefined"] = "missing"
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,13 @@ class Collected:
 
     def reply(self, task: Task) -> Reply:
         """Return what came back for one check; a function that is not defined has answered that."""
-        return self.replies.get(task.batch) or Reply(Absent(f"{task.stage.function} is not defined in the submission."))
+        return self.replies.get(task.batch) or Reply(self._absent(task.stage.function))
+
+    def _absent(self, function: str) -> Absent:
+        fate = self.loaded.fates.get(function)
+        if fate is None:
+            return Absent(f"{function} is not defined in the submission.")
+        return Absent(fate.message, "undefined" if fate.tried else "missing")
 
     @property
     def unsure(self) -> bool:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from autograder.diagnosis.recognise import CLOSE, COARSE, Given, Recogniser
 from autograder.engine.attempts import Attempts
-from autograder.engine.collect import Collected, Reply
+from autograder.engine.collect import Absent, Collected, Reply
 from autograder.engine.evidence import plainly, simplest
 from autograder.engine.groups import digest
 from autograder.engine.plan import Plan, Task
@@ -51,7 +51,7 @@ class Describer:
         style = attempt(f"remarking on {stage.name}", remarks, tasks, replies) or ()
         verdict = replace(verdict, remarks=(*verdict.remarks, *style))
         verdict = _shown(verdict, tasks, replies, attempt)
-        if verdict.status in {"passed", "missing"}:
+        if verdict.status in {"passed", "missing"} or any(isinstance(reply.failure, Absent) for reply in replies):
             return verdict
         group = attempt(f"grouping {stage.name}", digest, tasks, replies) or ""
         followed = all(check.passed or check.points for check in verdict.checks)

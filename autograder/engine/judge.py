@@ -24,6 +24,7 @@ from autograder.verdicts import CheckVerdict, StageStatus, StageVerdict
 # What a stage is called whose first failed check failed for this reason.
 _STATUS_OF_FAILURE: dict[str, StageStatus] = {
     "missing": "missing",
+    "undefined": "error",
     "timeout": "timeout",
     "budget": "timeout",
     "memory": "memory",
@@ -75,14 +76,15 @@ class Judge:
         judged = [_check(task, reply, points) for task, reply in zip(tasks, replies, strict=True)]
         status: StageStatus = next((reason for check, reason in judged if not check.passed), "passed")
         checks = [check for check, _ in judged]
+        said = _redefined(stage, status, collected)
         if not wrong or status == "passed":
-            return _verdict(stage, points, checks, status)
+            return _verdict(stage, points, checks, status, lead=said)
         apart = [collected.apart.get((stage.name, task.rung.name)) for task in tasks]
         first = f"Mend {' and '.join(wrong)} first, which the step builds on"
         checks = [self._by_itself(check, found, first) for check, found in zip(checks, apart, strict=True)]
         unpaid = [found for check, found in zip(checks, apart, strict=True) if not check.points]
         still = f"; {_AGAIN}, it is still wrong" if any(each and each.failure is None for each in unpaid) else ""
-        return _verdict(stage, points, checks, status, lead=f"{first}{still}." if unpaid else "")
+        return _verdict(stage, points, checks, status, lead=" ".join(filter(None, [said, f"{first}{still}." if unpaid else ""])))
 
     def _by_itself(self, check: CheckVerdict, apart: Reply | None, first: str) -> CheckVerdict:
         """Pay the follow-through share for a check that is right by itself."""
@@ -136,6 +138,13 @@ def _rows(cases: Sequence[Case], outputs: Sequence[Outputs]) -> list[Case] | Non
             return None
         rows.append((J, omega, f))
     return rows
+
+
+def _redefined(stage: Stage, status: StageStatus, collected: Collected) -> str:
+    """Say so where the function that was called is not the one that was meant."""
+    fate = collected.loaded.fates.get(stage.function)
+    there = stage.function in collected.loaded.functions and status not in {"passed", "missing"}
+    return fate.message if fate is not None and there else ""
 
 
 def _verdict(

@@ -48,7 +48,8 @@ class Ready(msgspec.Struct, frozen=True, tag=True):
 class Graded(msgspec.Struct, frozen=True, tag=True):
     """What became of one submission.
 
-    `unsure` where it ran out of time by the clock alone; `flags` say to staff which words are missing beside its marks.
+    `unsure` where it ran out of time by the clock alone; `flags` say to staff which words are missing beside its marks,
+    `in_vain` says of functions that somebody tried to write why they are not there.
     """
 
     stages: tuple[StageVerdict, ...]
@@ -59,6 +60,7 @@ class Graded(msgspec.Struct, frozen=True, tag=True):
     iterates: list[list[float]] | None
     confinement: str = ""
     flags: tuple[str, ...] = ()
+    in_vain: tuple[str, ...] = ()
 
 
 class Trouble(msgspec.Struct, frozen=True, tag=True):

@@ -64,6 +64,7 @@ class Results:
             stages=tuple(sorted(answer.stages, key=lambda stage: self.course.stages.index(stage.name))),
             notes=(*filter(None, [self.assigned[submission.id].note]), *submission.notes, *answer.notes),
             flags=self._flags(submission, answer),
+            in_vain=answer.in_vain,
             written=answer.written,
             images={
                 name: data
@@ -103,7 +104,7 @@ class Results:
     def _flags(self, submission: Submission, answer: Graded) -> tuple[str, ...]:
         """Say, to staff only, what is odd about whose it is, and where it carries the numbers of somebody else."""
         assigned = self.assigned[submission.id]
-        odd = (*((assigned.flag,) if assigned.flag else ()), *answer.flags)
+        odd = (*((assigned.flag,) if assigned.flag else ()), *_of_several(answer.in_vain), *answer.flags)
         if assigned.others is None or submission.source is None:
             return odd
         carried = assigned.others.in_text(assigned.student_id, "\n".join(submission.source.cells))
@@ -131,3 +132,9 @@ class Results:
             Result,
             from_attributes=True,
         )
+
+
+def _of_several(sentences: tuple[str, ...]) -> tuple[str, ...]:
+    """Give the first of several sentences, and how many more there are."""
+    more = len(sentences) - 1
+    return sentences if more < 1 else (sentences[0], f"So it is with {more} more function{'s' * (more > 1)}.")

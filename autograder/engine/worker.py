@@ -6,6 +6,7 @@ import contextlib
 import os
 import time
 import warnings
+from collections.abc import Sequence
 from multiprocessing.connection import Connection
 
 import msgspec
@@ -13,7 +14,7 @@ import numpy as np
 
 from autograder.engine.answering import judge_answers, judge_written
 from autograder.engine.attempts import Attempts, only_words
-from autograder.engine.collect import collect
+from autograder.engine.collect import Collected, collect
 from autograder.engine.corpus import case_of, load_corpus
 from autograder.engine.describe import Describer
 from autograder.engine.explain import explain
@@ -28,6 +29,7 @@ from autograder.sandbox.host import Answers, Limits, Sandbox, Server
 from autograder.stages import answers, written
 from autograder.stages.answers import Sheet
 from autograder.stages.catalogue import stage
+from autograder.verdicts import StageVerdict
 
 
 def plan_of(told: Orders) -> Plan:
@@ -131,7 +133,18 @@ class Examiner:
             iterates=None if given.iterates is None or given.iterates.ndim != 2 else given.iterates.tolist(),
             confinement=self.sandbox.confinement.level,
             flags=attempt.flags,
+            in_vain=self._in_vain(collected, marks),
         )
+
+    def _in_vain(self, collected: Collected, marks: Sequence[StageVerdict]) -> tuple[str, ...]:
+        """Say what became of functions that somebody tried to write and that cost points."""
+        lost = {
+            self.plan.stage(mark.name).function
+            for mark in marks
+            if self.plan.has(mark.name) and mark.status != "passed"
+        }
+        fates = collected.loaded.fates
+        return tuple(fates[name].message for name in sorted(lost & fates.keys()) if fates[name].tried)
 
 
 def _sheet(job: Grade) -> Sheet:

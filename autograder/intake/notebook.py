@@ -30,11 +30,22 @@ _OLD_FORMAT = "is a notebook of format {}, expected 4; open it in a current Jupy
 
 
 class _Cell(msgspec.Struct, gc=False):
-    """A cell as written; `source` stays undecoded until its length is known to be fit."""
+    """A cell as written; `source`, `input` in format 3, stays undecoded until its length is known to be fit."""
 
     cell_type: str
     source: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
+    input: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
     attachments: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
+    execution_count: msgspec.Raw | msgspec.UnsetType = msgspec.UNSET
+
+    @property
+    def text(self) -> msgspec.Raw | msgspec.UnsetType:
+        """What was typed into the cell."""
+        return self.input if isinstance(self.source, msgspec.UnsetType) else self.source
+
+
+class _Worksheet(msgspec.Struct):
+    cells: list[_Cell] = []
 
 
 class _Notebook(msgspec.Struct):
@@ -55,6 +66,7 @@ class _Metadata(msgspec.Struct):
 _METADATA = msgspec.json.Decoder(_Metadata)
 _NOTEBOOK = msgspec.json.Decoder(_Notebook)
 _ATTACHMENTS = msgspec.json.Decoder(dict[str, dict[str, str]])
+_WORKSHEETS = msgspec.json.Decoder(list[_Worksheet])
 _SOURCE = msgspec.json.Decoder(str | list[str])
 
 
@@ -67,38 +79,55 @@ class Notebook:
     notes: tuple[str, ...] = ()
     variant: str = ""
     pictures: Mapping[str, str] = field(default_factory=dict)
+    labels: tuple[str, ...] = ()
+    """What each code cell is called: its place among all cells, and the number that Jupyter shows beside it."""
 
 
 def read_notebook(data: bytes) -> Notebook:
-    """Read a notebook of format 4; raises RejectedUpload with the end of a sentence where it is none."""
+    """Read a notebook of format 4 or 3; raises RejectedUpload with the end of a sentence where it is none."""
     if len(data) > MAX_NOTEBOOK:
         raise RejectedUpload("is larger than 20 MiB; clear all outputs in Jupyter, save it and hand it in again")
     reject_foreign(data)
     notebook = _decode(data)
     version = _version(notebook.nbformat)
-    if notebook.cells is msgspec.UNSET:
-        if notebook.worksheets is not msgspec.UNSET or version in ("1", "2", "3"):
-            raise RejectedUpload(_OLD_FORMAT.format(version or "3"))
-        raise RejectedUpload("is JSON but no notebook (it has no cells); save the notebook in Jupyter and hand in that")
-    if version in ("1", "2", "3"):
-        raise RejectedUpload(_OLD_FORMAT.format(version))
-    if not notebook.cells:
-        raise RejectedUpload("is a notebook without cells; check that you handed in the file you worked in")
-    if len(notebook.cells) > MAX_CELLS:
-        raise RejectedUpload(f"has {len(notebook.cells)} cells, more than the limit of {MAX_CELLS}")
-    code, notes = _code(notebook.cells)
+    cells = _cells(notebook, version)
+    code, labels, notes = _code(cells)
     if not code:
         notes.append("The notebook has no code cell.")
-    if version != "4":
+    if version not in ("3", "4"):
         notes.append(f"The notebook names its format {version!r}, not 4; its cells were read all the same.")
-    markdown, pictures = _markdown(notebook.cells)
-    return Notebook(tuple(code), tuple(markdown), tuple(notes), _variant(notebook.metadata), pictures)
+    markdown, pictures = _markdown(cells)
+    return Notebook(tuple(code), tuple(markdown), tuple(notes), _variant(notebook.metadata), pictures, tuple(labels))
+
+
+def _cells(notebook: _Notebook, version: str) -> list[_Cell]:
+    """Return the cells, wherever the format keeps them."""
+    cells = notebook.cells
+    if isinstance(cells, msgspec.UnsetType) and not isinstance(notebook.worksheets, msgspec.UnsetType):
+        cells = _worksheets(notebook.worksheets, version)
+    if version in ("1", "2"):
+        raise RejectedUpload(_OLD_FORMAT.format(version))
+    if isinstance(cells, msgspec.UnsetType):
+        raise RejectedUpload("is JSON but no notebook (it has no cells); save the notebook in Jupyter and hand in that")
+    if not cells:
+        raise RejectedUpload("is a notebook without cells; check that you handed in the file you worked in")
+    if len(cells) > MAX_CELLS:
+        raise RejectedUpload(f"has {len(cells)} cells, more than the limit of {MAX_CELLS}")
+    return cells
+
+
+def _worksheets(raw: msgspec.Raw, version: str) -> list[_Cell]:
+    """Return the cells of format 3, sheet after sheet."""
+    try:
+        return [cell for sheet in _WORKSHEETS.decode(raw) for cell in sheet.cells]
+    except (msgspec.DecodeError, RecursionError, ValueError):
+        raise RejectedUpload(_OLD_FORMAT.format(version or "3")) from None
 
 
 def looks_like_notebook(data: bytes) -> bool:
     """Say whether the bytes are a notebook by their content, whatever the file is called."""
     head = data[:200].removeprefix(_UTF8_MARK).lstrip()
-    return head.startswith(b"{") and b'"cells"' in data and b'"cell_type"' in data and b'"nbformat"' in data
+    return head.startswith(b"{") and b'"cell_type"' in data and b'"nbformat"' in data
 
 
 def _decode(data: bytes) -> _Notebook:
@@ -114,8 +143,14 @@ def _decode(data: bytes) -> _Notebook:
             raise RejectedUpload("is empty, expected a notebook; save it in Jupyter and hand it in again") from None
         if b"<<<<<<< " in body and b">>>>>>> " in body:
             raise RejectedUpload("holds an unfinished git merge; resolve it, open it in Jupyter and save it") from None
+        if body.lstrip()[:1] == b"<":
+            raise RejectedUpload(
+                "is a web page, no notebook; it may be a page that asks to sign in: download the notebook again"
+            ) from None
         if not body.lstrip().startswith(b"{"):
             raise RejectedUpload("is no notebook (not JSON); a Python file needs a name that ends in .py") from None
+        if "truncated" in str(error):
+            raise RejectedUpload("is cut off before its end; save it in Jupyter and hand it in again") from None
         at = re.search(r"\(byte (\d+)\)", str(error))
         line = body.count(b"\n", 0, int(at[1])) + 1 if at else 0
         where = f" (line {line})" if at else ""
@@ -150,21 +185,31 @@ def _variant(raw: msgspec.Raw | msgspec.UnsetType) -> str:
     return stated if len(stated) <= _LONGEST_NAME and stated.isprintable() else ""
 
 
-def _code(cells: list[_Cell]) -> tuple[list[str], list[str]]:
+def _code(cells: list[_Cell]) -> tuple[list[str], list[str], list[str]]:
     code: list[str] = []
+    labels: list[str] = []
     notes: list[str] = []
     raw_left, left = _MAX_RAW, MAX_SOURCE
     for number, cell in enumerate(cells, start=1):
         if cell.cell_type == "code":
-            raw_left -= 0 if isinstance(cell.source, msgspec.UnsetType) else memoryview(cell.source).nbytes
-            text = _text(cell, number) if raw_left >= 0 else ""
+            raw_left -= 0 if isinstance(cell.text, msgspec.UnsetType) else memoryview(cell.text).nbytes
+            text, odd = _text(cell) if raw_left >= 0 else ("", "")
             left -= len(text.encode())
             if min(raw_left, left) < 0:
                 raise RejectedUpload("has more than 1 MiB of code; move data out of the cells")
             code.append(text)
-        elif cell.cell_type not in ("markdown", "raw"):
+            labels.append(_label(cell, number))
+            if odd:
+                notes.append(f"{labels[-1].capitalize()} {odd}.")
+        elif cell.cell_type not in ("markdown", "raw", "heading"):
             notes.append(f"Cell {number} is of the unknown type {cell.cell_type[:20]!r} and was not read.")
-    return code, notes[:5]
+    return code, labels, notes[:5]
+
+
+def _label(cell: _Cell, number: int) -> str:
+    """Name a cell as its reader sees it: Jupyter numbers what was run, other programs count all cells."""
+    shown = b"" if isinstance(cell.execution_count, msgspec.UnsetType) else bytes(cell.execution_count)
+    return f"cell {number} (In [{int(shown)}])" if shown.isdigit() and len(shown) < 7 else f"cell {number}"
 
 
 def _markdown(cells: list[_Cell]) -> tuple[list[str], dict[str, str]]:
@@ -173,15 +218,12 @@ def _markdown(cells: list[_Cell]) -> tuple[list[str], dict[str, str]]:
     pictures: dict[str, str] = {}
     pictures_left = MAX_PICTURES
     raw_left = _MAX_RAW
-    for number, cell in enumerate(cells, start=1):
+    for cell in cells:
         if cell.cell_type == "markdown" and not isinstance(cell.source, msgspec.UnsetType):
             raw_left -= memoryview(cell.source).nbytes
             if raw_left < 0:
                 break
-            try:
-                text = _text(cell, number)
-            except RejectedUpload:
-                continue
+            text, _ = _text(cell)
             if "attachment:" in text:
                 text, found, pictures_left = with_pictures(text, _attached(cell), pictures_left)
                 pictures |= found
@@ -198,13 +240,17 @@ def _attached(cell: _Cell) -> dict[str, dict[str, str]]:
         return {}
 
 
-def _text(cell: _Cell, number: int) -> str:
-    if isinstance(cell.source, msgspec.UnsetType):
-        return ""
+def _text(cell: _Cell) -> tuple[str, str]:
+    """Return the text of a cell, and what is odd about how it is written, as the end of a sentence."""
+    raw = cell.text
+    if isinstance(raw, msgspec.UnsetType):
+        return "", ""
     try:
-        source = _SOURCE.decode(cell.source)
+        source = _SOURCE.decode(raw)
     except (msgspec.DecodeError, RecursionError, ValueError):
-        raise RejectedUpload(
-            f"has no readable source in cell {number} (expected a text or a list of lines); save it in Jupyter again"
-        ) from None
-    return one_newline(source if isinstance(source, str) else "".join(source))
+        return "", "has no readable text (expected a text or a list of lines) and was taken as empty"
+    if isinstance(source, str):
+        return one_newline(source), ""
+    if len(source) > 1 and all(line.splitlines() == [line] for line in source if line):
+        return one_newline("\n".join(source)), "is a list of lines without line ends; they were put one below the other"
+    return one_newline("".join(source)), ""

@@ -57,7 +57,7 @@ def digest(source: Source) -> str:
 
 def _read_notebook(data: bytes, name: str) -> Content:
     notebook = read_notebook(data)
-    source = Source(kind="notebook", cells=list(notebook.code), name=printable(name))
+    source = Source("notebook", list(notebook.code), printable(name), list(notebook.labels))
     return Content(source, notebook.markdown, notebook.notes, notebook.variant, notebook.pictures)
 
 

@@ -75,9 +75,11 @@ class Child:
         def report(cell: int, number: int, line: int) -> None:
             _send(frames.Progress(request.nonce, cell, number, line))
 
-        self._submission = submission = Submission(request.source, report)
+        wanted = {plan.function for plan in self._plans}
+        self._submission = submission = Submission(request.source, report, wanted)
         submission.execute(set(request.skip), request.stop)
-        return frames.LoadReport(request.nonce, submission.functions(), submission.remarks, submission.answers())
+        found = submission.functions(), submission.remarks, submission.answers(), submission.fates()
+        return frames.LoadReport(request.nonce, *found)
 
     def _replace(self, request: Replace) -> frames.Replaced:
         if self._submission is not None:

@@ -34,7 +34,7 @@ LOAD_BOUND = 1 << 20  # bytes of one reply while a submission is loaded
 Nonce = Annotated[int, Meta(ge=0, le=2**63 - 1)]
 Count = Annotated[int, Meta(ge=0, le=2**31 - 1)]
 Ordinal = Annotated[int, Meta(ge=-1, le=2**31 - 1)]
-Status = Literal["error", "syntax", "timeout", "memory", "died", "forbidden"]
+Status = Literal["error", "syntax", "timeout", "memory", "died", "forbidden", "skipped"]
 
 
 class Outcome(IntEnum):
@@ -74,6 +74,8 @@ class Source(Frame, tag="source"):
     kind: Literal["module", "notebook"]
     cells: list[str]
     name: str
+    labels: list[str] = []
+    """What each cell is called where it is shown; without them cells are counted."""
 
 
 class Load(Frame, tag="load"):
@@ -159,13 +161,29 @@ class AnswerData(Frame, tag="answers"):
     bad: Annotated[str, Meta(max_length=4 * MAX_REASON)]
 
 
+class Fate(Frame, tag="fate"):
+    """What became of a function that is asked for, where it is not simply there, or not the one meant.
+
+    `cell` and `line` say where it was written or tried, `by_cell` and `by_line` what took its place.
+    """
+
+    name: Annotated[str, Meta(max_length=64)]
+    how: Literal["failed", "skipped", "replaced", "redefined", "inside", "value", "near"]
+    cell: Count
+    line: Count
+    by_cell: Count
+    by_line: Count
+    words: Annotated[str, Meta(max_length=MAX_REASON)]
+
+
 class LoadReport(Frame, tag="loaded"):
-    """What a submission defines, and what of it was skipped."""
+    """What a submission defines, what of it was skipped, and what became of the functions that are asked for."""
 
     nonce: Nonce
     functions: Annotated[list[Annotated[str, Meta(max_length=64)]], Meta(max_length=MAX_FUNCTIONS)]
     remarks: Annotated[list[Remark], Meta(max_length=MAX_NOTES)]
     answers: AnswerData
+    fates: Annotated[list[Fate], Meta(max_length=64)] = []
 
 
 class BatchReport(Frame, tag="results"):

@@ -15,6 +15,21 @@ _COMMAND = re.compile(
 _ASSIGNED = re.compile(r"(\s*)([A-Za-z_][\w.,\s\[\]'\"]*?)\s*=\s*(?:!|%\s*[A-Za-z]).*")
 
 
+def skipped_magic(text: str) -> str:
+    r"""Return the magic of a cell that is left out because of it, as it is written; "" where the cell is run.
+
+    Examples
+    --------
+    >>> skipped_magic("%%writefile a.py" + chr(10) + "x = 1"), skipped_magic("%%time" + chr(10) + "x = 1")
+    ('%%writefile', '')
+    """
+    lines = text.split("\n")
+    while lines and (not lines[0].strip() or ((found := _CELL_MAGIC.match(lines[0])) and found[1] in _RUNS_THE_REST)):
+        lines.pop(0)
+    magic = _CELL_MAGIC.match(lines[0]) if lines else None
+    return f"%%{magic[1] or ''}"[:40] if magic and any(line.strip() for line in lines[1:]) else ""
+
+
 def without_cell_magic(text: str) -> str:
     r"""Drop the line of a cell magic that runs its cell; where it does something else, drop the cell.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -83,12 +84,24 @@ class Answers:
 
 
 @dataclass(frozen=True)
+class Fate:
+    """Why a function is not there, or is not the one that was meant.
+
+    `tried` says that somebody tried to write it: then it is an error, and else it is missing.
+    """
+
+    message: str
+    tried: bool
+
+
+@dataclass(frozen=True)
 class Loaded:
-    """What a submission defines once it is executed."""
+    """What a submission defines once it is executed; `fates` says what became of functions that are asked for."""
 
     functions: frozenset[str] = frozenset()
     notes: tuple[Note, ...] = ()
     answers: Answers = Answers()
+    fates: Mapping[str, Fate] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -222,4 +235,7 @@ def printable(text: str, most: int = MAX_REASON) -> str:
 
 def place(source: Source, cell: int, line: int) -> str:
     """Say where a statement stands, as a student counts."""
-    return f"line {line}" if source.kind == "module" else f"cell {cell + 1}, line {line}"
+    if source.kind == "module":
+        return f"line {line}"
+    label = source.labels[cell] if cell < len(source.labels) else f"cell {cell + 1}"
+    return f"{label}, line {line}"

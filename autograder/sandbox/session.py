@@ -10,6 +10,7 @@ from types import TracebackType
 from autograder.errors import SandboxError
 from autograder.sandbox import frames
 from autograder.sandbox.channel import WALL_FACTOR, Budget, Channel, Ended
+from autograder.sandbox.fates import fates_of
 from autograder.sandbox.frames import Batch, Source, Table
 from autograder.sandbox.outputs import (
     Expected,
@@ -40,7 +41,9 @@ class Session:
         self._server = server
         self._limits = limits
         self._expected = expected
-        self._source = frames.Source(source.kind, [_sendable(cell) for cell in source.cells], _sendable(source.name))
+        self._source = frames.Source(
+            source.kind, [_sendable(cell) for cell in source.cells], _sendable(source.name), source.labels
+        )
         self._budget = self._limits.budget()
         self._channel: Channel | None = None
         self._pid = 0
@@ -209,7 +212,12 @@ class Session:
         ]
         placed += [((cell, line), note) for (cell, _), (line, note) in self._skip.items()]
         placed.sort(key=lambda entry: entry[0])
-        return Loaded(frozenset(report.functions), tuple(note for _, note in placed), read_answers(report.answers))
+        return Loaded(
+            frozenset(report.functions),
+            tuple(note for _, note in placed),
+            read_answers(report.answers),
+            fates_of(self._source, report),
+        )
 
     def _failure(self, end: Ended | Violation, share: float = 1.0) -> Failure:
         """Put into words why the child ended, and make sure that it has."""

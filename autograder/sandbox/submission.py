@@ -17,6 +17,7 @@ from .imports import STUDENT_BUILTINS, ForbiddenImport
 from .parsing import Statement, statements
 from .policy import STUDENT_MODULE
 from .values import BadValue, described, flatten
+from .watch import Watch
 
 Report = Callable[[int, int, int], None]  # cell, statement, line: what is about to run
 _MOST_ITERATES = 4096  # elements
@@ -33,19 +34,24 @@ class Submission:
         What was handed in.
     report : callable
         Is told the cell, number and line of a statement before it runs, if it could do harm.
+    wanted : collection of str
+        The functions that will be called.
     """
 
-    def __init__(self, source: Source, report: Report) -> None:
+    def __init__(self, source: Source, report: Report, wanted: Collection[str] = ()) -> None:
         self.remarks: list[Remark] = []
         self._source = source
         self._report = report
-        self._flags = 0  # of `from __future__ import ...`, which holds for all that follows
+        # Of `from __future__ import ...`, which holds for all that follows. Annotations are never evaluated: a name
+        # in one that is not known, as after a cell with imports was lost, is no reason to lose the function.
+        self._flags = __future__.annotations.compiler_flag
         self._module = ModuleType(STUDENT_MODULE)
         self._names: dict[str, Any] = vars(self._module)
         self._names["__builtins__"] = STUDENT_BUILTINS
         if source.kind == "module":
             self._names["__file__"] = f"{STUDENT_MODULE}.py"
         sys.modules[STUDENT_MODULE] = self._module
+        self._watch = Watch(wanted, self._names)
 
     def execute(self, skip: Collection[tuple[int, int]], stop: tuple[int, int] | None) -> None:
         """Run every statement but those of `skip`, up to `stop`."""
@@ -61,13 +67,16 @@ class Submission:
             for statement in found:
                 if stop is not None and (cell, statement.number) >= stop:
                     return
-                if (cell, statement.number) not in skip:
+                if (cell, statement.number) in skip:
+                    self._watch.failed(cell, statement, statement.line, "")
+                else:
                     self._run(cell, statement, filename)
 
     def _run(self, cell: int, statement: Statement, filename: str) -> None:
         node = statement.node
         if node is None:
-            self._remark(cell, statement.line, "syntax", statement.problem)
+            self._remark(cell, statement.line, "skipped" if statement.skipped else "syntax", statement.problem)
+            self._watch.failed(cell, statement, statement.line, statement.problem)
             return
         if not _is_quiet(node):
             self._report(cell, statement.number, statement.line)
@@ -75,13 +84,18 @@ class Submission:
             self._flags |= _future(node)
             exec(compile(ast.Module([node], []), filename, "exec", self._flags, dont_inherit=True), self._names)
         except SyntaxError as error:  # found only by the compiler, as `return` outside a function
-            self._remark(cell, statement.line, "syntax", said(error))
+            line = max(error.lineno or 0, statement.line)
+            self._remark(cell, line, "syntax", said(error))
+            self._watch.failed(cell, statement, line, said(error))
         except BaseException as error:  # noqa: BLE001  # whatever a statement raises, the next one counts
             outcome, text = classify(error)
             if outcome is Outcome.FORBIDDEN:
                 self._stand_for(node, text)
                 text = f"{text} is not allowed here"
             self._remark(cell, statement.line, _STATUS.get(outcome, "error"), text)
+            self._watch.failed(cell, statement, statement.line, text)
+        else:
+            self._watch.ran(cell, statement)
 
     def _stand_for(self, node: ast.stmt, module: str) -> None:
         """Bind the name of a function whose definition used a module that is not allowed.
@@ -108,6 +122,10 @@ class Submission:
         """Put functions that answer from tables in the place of the submission's own."""
         for table in found:
             tables.put(self._names, table, objects, posegraph)
+
+    def fates(self) -> list[frames.Fate]:
+        """Tell what became of the functions that will be called, where that is worth telling."""
+        return self._watch.fates()
 
     def functions(self) -> list[str]:
         """List the names that can be called, the submission's own and imported ones."""
