@@ -36,14 +36,13 @@ PARTS = {"normal_equations": ("H of ", "b of "), "sparsity_pattern": ("J_mask of
 
 # What may be imported where the homework is graded: numpy, and of the standard library what computes.
 ALLOWED = """
-    posegraph numpy math cmath fractions decimal statistics itertools functools operator collections
-    dataclasses typing enum copy random time warnings abc numbers string textwrap re json sys os io contextlib
-    types pprint inspect __future__
-    argparse array ast base64 binascii bisect builtins calendar codecs colorsys contextvars copyreg csv datetime
-    difflib dis doctest errno fnmatch gc getopt graphlib hashlib heapq hmac html keyword locale logging optparse
-    pathlib pickle platform queue reprlib sched secrets shlex stat struct symtable threading timeit token tokenize
-    traceback unicodedata unittest uuid weakref zlib
-    matplotlib IPython self_check tqdm
+    posegraph numpy math cmath fractions decimal statistics itertools functools operator collections dataclasses
+    typing enum copy random time warnings abc numbers string textwrap re json sys os io contextlib types pprint
+    inspect __future__ argparse array ast base64 binascii bisect builtins calendar codecs colorsys contextvars
+    copyreg csv datetime difflib dis doctest errno fnmatch gc getopt graphlib hashlib heapq hmac html keyword
+    locale logging optparse pathlib pickle platform queue reprlib sched secrets shlex stat struct symtable
+    threading timeit token tokenize traceback unicodedata unittest uuid weakref zlib matplotlib IPython
+    self_check tqdm
 """
 
 
@@ -467,14 +466,11 @@ def _told(stage: str, namespace: dict[str, Any]) -> bool:
 
 
 def foreign(namespace: dict[str, Any]) -> list[str]:
-    """Name the modules that the work has imported, or taken something from, and that are not allowed when graded."""
-    found, own = set(), (namespace.get("__name__"), "__main__")
-    for name, value in namespace.items():
-        module = value.__name__ if isinstance(value, ModuleType) else getattr(value, "__module__", None)
-        root = module.partition(".")[0] if isinstance(module, str) and module not in own else "_"
-        if not name.startswith("_") and not root.startswith(("_", "ipykernel")) and root not in ALLOWED.split():
-            found.add(root)
-    return sorted(found)
+    """Name the modules that are imported, or from which something is, and that are not allowed when graded."""
+    found = {str(getattr(v, "__name__" if isinstance(v, ModuleType) else "__module__", "")) for v in namespace.values()}
+    roots = {name.partition(".")[0] for name in found - {"", "None", "__main__", namespace.get("__name__")}}
+    known = {*ALLOWED.split(), PoseGraph.__module__.partition(".")[0]}
+    return sorted(root for root in roots - known if root in sys.modules and not root.startswith(("_", "ipykernel")))
 
 
 def check_all(namespace: dict[str, Any]) -> None:

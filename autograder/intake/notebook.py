@@ -29,6 +29,9 @@ _SURROGATES = re.compile(rb"(?<!\\)((?:\\\\)*)(?:(%b%b)|%b|%b)" % (_HIGH, _LOW, 
 _OLD_FORMAT = "is a notebook of format {}, expected 4; open it in a current Jupyter, save it and hand it in again"
 
 
+_UNREADABLE = "has no readable text (expected a text or a list of lines) and was taken as empty"
+
+
 class _Cell(msgspec.Struct, gc=False):
     """A cell as written; `source`, `input` in format 3, stays undecoded until its length is known to be fit."""
 
@@ -189,6 +192,7 @@ def _code(cells: list[_Cell]) -> tuple[list[str], list[str], list[str]]:
     code: list[str] = []
     labels: list[str] = []
     notes: list[str] = []
+    unreadable = 0
     raw_left, left = _MAX_RAW, MAX_SOURCE
     for number, cell in enumerate(cells, start=1):
         if cell.cell_type == "code":
@@ -199,10 +203,13 @@ def _code(cells: list[_Cell]) -> tuple[list[str], list[str], list[str]]:
                 raise RejectedUpload("has more than 1 MiB of code; move data out of the cells")
             code.append(text)
             labels.append(_label(cell, number))
+            unreadable += odd == _UNREADABLE
             if odd:
                 notes.append(f"{labels[-1].capitalize()} {odd}.")
         elif cell.cell_type not in ("markdown", "raw", "heading"):
             notes.append(f"Cell {number} is of the unknown type {cell.cell_type[:20]!r} and was not read.")
+    if code and unreadable == len(code):
+        raise RejectedUpload(f"has no readable text in any of its {unreadable} code cells; save it in Jupyter again")
     return code, labels, notes[:5]
 
 
@@ -248,7 +255,7 @@ def _text(cell: _Cell) -> tuple[str, str]:
     try:
         source = _SOURCE.decode(raw)
     except (msgspec.DecodeError, RecursionError, ValueError):
-        return "", "has no readable text (expected a text or a list of lines) and was taken as empty"
+        return "", _UNREADABLE
     if isinstance(source, str):
         return one_newline(source), ""
     if len(source) > 1 and all(line.splitlines() == [line] for line in source if line):

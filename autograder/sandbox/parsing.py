@@ -40,8 +40,8 @@ def statements(text: str, notebook: bool) -> list[Statement]:
     text = text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
     attempts = [text]
     magic = skipped_magic(text) if notebook else ""
-    if magic:
-        return [Statement(0, 1, None, f"the cell begins with {magic} and was not run", _defined(text), skipped=True)]
+    if magic and (names := _defined(text)):
+        return [Statement(0, 1, None, f"the cell begins with {magic} and was not run", names, skipped=True)]
     if notebook:
         plain = without_cell_magic(text)
         attempts += [plain, without_line_magics(plain)]

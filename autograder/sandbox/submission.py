@@ -75,7 +75,10 @@ class Submission:
     def _run(self, cell: int, statement: Statement, filename: str) -> None:
         node = statement.node
         if node is None:
-            self._remark(cell, statement.line, "skipped" if statement.skipped else "syntax", statement.problem)
+            if not statement.skipped:
+                self._remark(cell, statement.line, "syntax", statement.problem)
+            elif self._watch.wants(statement.names):  # other programs than Python have functions, too
+                self._remark(cell, statement.line, "skipped", statement.problem)
             self._watch.failed(cell, statement, statement.line, statement.problem)
             return
         if not _is_quiet(node):

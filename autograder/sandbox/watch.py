@@ -45,6 +45,10 @@ class Watch:
         self._written: dict[str, _Written] = {}
         self._fates: dict[str, Fate] = {}
 
+    def wants(self, names: Collection[str]) -> bool:
+        """Whether one of these functions will be called."""
+        return not self._wanted.isdisjoint(names)
+
     def failed(self, cell: int, statement: Statement, line: int, words: str) -> None:
         """Note a statement that does not parse, was left out, or raised."""
         node = statement.node

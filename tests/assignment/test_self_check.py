@@ -1,17 +1,21 @@
 """The self-check passes right work, fails known mistakes, and holds no answer."""
 
 import ast
+import json
 import re
+import subprocess
 import sys
 import time
 from pathlib import Path
 
+import hypothesis
 import numpy as np
 import pytest
 
 from autograder.problems import families
 from autograder.problems.secret import Secret
 from autograder.problems.variants import draw_variant
+from autograder.sandbox import policy
 from reference_solution import slam1d
 from tests.assignment.mistakes import all_slips, by_identifier, right_work
 
@@ -59,7 +63,14 @@ def test_right_work_passes_everything_quickly(self_check, capsys):
     for _ in range(3):
         rows.append(rows[-1] + slam1d.gauss_newton_step(rows[-1], graph))
     began = time.perf_counter()
-    work = {**right_work(), "my_graph": graph, "my_start": x, "iterates": np.array(rows), "conclusion": "A"}
+    work = {
+        **right_work(),
+        "__name__": slam1d.__name__,
+        "my_graph": graph,
+        "my_start": x,
+        "iterates": np.array(rows),
+        "conclusion": "A",
+    }
     self_check.check_all(work)
     assert time.perf_counter() - began < 2.0
     shown = capsys.readouterr().out
@@ -206,7 +217,7 @@ def test_unfinished_work_is_no_failure(self_check, capsys):
 def test_wrong_iterates_are_pointed_at(self_check):
     """A row that does not follow from the row before is named, and so is a wrong shape."""
     graph, x = self_check.WORKED, self_check.WORKED.dead_reckoning()
-    work = {**right_work(), "my_graph": graph, "my_start": x}
+    work = {**right_work(), "__name__": slam1d.__name__, "my_graph": graph, "my_start": x}
     ((_, wrong),) = self_check.failures("iterates", {**work, "iterates": np.array([x, x, x, x])})
     assert "row 1 of iterates, x^(1), is [0 1.1 2.1 3.2 0.5]: it is not row 0 plus your step" in wrong
     ((_, wrong),) = self_check.failures("iterates", {**work, "iterates": np.array([0 * x, x, x, x])})
@@ -216,3 +227,23 @@ def test_wrong_iterates_are_pointed_at(self_check):
     assert "it is not dead reckoning; run the cell of my_start again" in found[0][1]
     ((_, wrong),) = self_check.failures("iterates", {**work, "iterates": np.zeros((2, 5))})
     assert "iterates has shape (2, 5), expected (4, 5)" in wrong
+
+
+def test_what_may_be_imported_is_what_the_grader_allows(self_check):
+    """Students are told the list that holds where the homework is graded."""
+    assert set(self_check.ALLOWED.split()) == policy.ALLOWED | policy.STAND_INS
+
+
+def test_an_import_that_will_not_be_allowed_is_named(self_check, capsys):
+    """Modules, and what was taken from them, are named once; own functions and allowed modules are not."""
+    namespace = {
+        "np": np,
+        "subprocess": subprocess,
+        "given": hypothesis.given,
+        "x": 1,
+        "json": json,
+        "__name__": __name__,
+    }
+    assert self_check.foreign(namespace) == ["hypothesis", "subprocess"]
+    self_check.check_all(namespace)
+    assert "NOTE  subprocess is imported and is not allowed when graded" in capsys.readouterr().out

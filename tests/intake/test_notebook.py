@@ -83,7 +83,7 @@ def test_whatever_happened_to_the_cells_they_are_read() -> None:
     read = read_notebook(data)
     assert read.code == ("a = 1", "b = 2", "c = 3\nd = 4", "", "e = 5")
     assert read.markdown == ()
-    assert read.notes == ("Cell 6 is of the unknown type 'heading' and was not read.",)
+    assert read.notes == ()
 
 
 def test_markdown_and_raw_cells_are_never_code() -> None:
@@ -125,15 +125,13 @@ def test_a_version_that_is_odd_is_read_with_a_note() -> None:
         (b'{"cells": [5]}', "is JSON but no notebook (Expected `object`, got `int` - at `$.cells[0]`)"),
         (b'{"cells": [{}]}', "missing required field `cell_type`"),
         (b'{"cells": []}', "is a notebook without cells"),
-        (b'{"cells": [{"cell_type": "code", "source": 5}]}', "has no readable source in cell 1"),
-        (b'{"cells": [{"cell_type": "code", "source": [["x"]]}]}', "has no readable source in cell 1"),
-        (b'{"cells": [{"cell_type": "code", "source": "\xff"}]}', "has no readable source in cell 1"),
+        (b'{"cells": [{"cell_type": "code", "source": 5}]}', "has no readable text in any of its 1 code cells"),
+        (b'{"cells": [{"cell_type": "code", "source": [["x"]]}]}', "has no readable text in any of its 1 code cells"),
+        (b'{"cells": [{"cell_type": "code", "source": "\xff"}]}', "has no readable text in any of its 1 code cells"),
         (b'{"cells": [],\n"x": NaN}', "is no valid JSON (line 2), so no notebook; open it in Jupyter"),
-        (b'{"cells": [{"cell_type": "code"', "is no valid JSON, so no notebook"),
-        (
-            b'{"worksheets": [{"cells": []}], "nbformat": 3}',
-            "is a notebook of format 3, expected 4; open it in a current",
-        ),
+        (b'{"cells": [{"cell_type": "code"', "is cut off before its end; save it in Jupyter"),
+        (b"<!DOCTYPE html>\n<html>Sign in</html>", "is a web page, no notebook; it may be a page that asks to sign in"),
+        (b'{"worksheets": [{"cells": []}], "nbformat": 3}', "is a notebook without cells"),
         (b'{"worksheets": 5}', "is a notebook of format 3"),
         (b'{"cells": [], "nbformat": 2}', "is a notebook of format 2"),
         (b'{\n<<<<<<< HEAD\n"cells": []\n=======\n>>>>>>> mine\n}', "holds an unfinished git merge"),
@@ -243,3 +241,28 @@ def test_any_json_is_read_or_rejected(value: Any) -> None:
 def test_the_variant_in_the_metadata_is_read_where_there_is_one(metadata: object, stated: str) -> None:
     """Of the metadata one short text is read; whatever else stands there neither counts nor hurts."""
     assert read_notebook(notebook(cell("x = 1"), metadata=metadata)).variant == stated
+
+
+def test_one_bad_cell_costs_itself() -> None:
+    """A source that is null, or lines without line ends, are read as well as they can be, and that is said."""
+    read = read_notebook(
+        notebook(cell("a = 1"), {"cell_type": "code", "source": None}, cell(["def f():", "    return 1"]))
+    )
+    assert read.code == ("a = 1", "", "def f():\n    return 1")
+    assert [note.partition(" ")[0] for note in read.notes] == ["Cell", "Cell"]
+    assert "Cell 2 has no readable text" in read.notes[0]
+    assert "Cell 3 is a list of lines without line ends" in read.notes[1]
+
+
+def test_format_3_is_read() -> None:
+    """Older notebooks keep their cells in worksheets and call what was typed `input`."""
+    cells = [{"cell_type": "markdown", "source": ["# a"]}, {"cell_type": "code", "input": ["x = 1\n", "y = 2"]}]
+    read = read_notebook(json.dumps({"nbformat": 3, "metadata": {}, "worksheets": [{"cells": cells}]}).encode())
+    assert (read.code, read.markdown, read.notes) == (("x = 1\ny = 2",), ("# a",), ())
+
+
+def test_cells_are_called_as_the_notebook_shows_them() -> None:
+    """All cells are counted, and the number that Jupyter shows beside one that was run is named."""
+    run = {"cell_type": "code", "source": "x", "execution_count": 7}
+    read = read_notebook(notebook(cell("# t", "markdown"), run, cell("y"), {**run, "execution_count": "9"}))
+    assert read.labels == ("cell 2 (In [7])", "cell 3", "cell 4")

@@ -49,10 +49,14 @@ def f(x, g):
     assert run(text).data.tolist() == [42, 1, 1, 1]
 
 
-def test_future_statements_hold_for_what_follows(load: Load) -> None:
-    """With postponed annotations, names in annotations are not looked up."""
+def test_an_annotation_costs_nothing(load: Load) -> None:
+    """Names in annotations are not looked up, with `from __future__ import annotations` or without."""
     assert brief(load("from __future__ import annotations\ndef f(x: Nonsense) -> Nothing: pass\n")) == []
-    assert brief(load("def f(x: Nonsense): pass\n")) == [("line 1", "error")]
+    loaded = load(
+        "def f(x: Nonsense): pass\nclass A:\n    x: Nonsense\n    def g(self) -> 1 / 0: pass\ny: Nonsense = 3\n"
+    )
+    assert brief(loaded) == []
+    assert {"f", "A"} <= loaded.functions
 
 
 BROKEN = '''
@@ -101,7 +105,7 @@ def g(x):
 def test_a_syntax_error_costs_its_own_part(load: Load) -> None:
     """What does not parse is left out, part by part; everything else of the module counts."""
     loaded = load(BROKEN)
-    assert brief(loaded) == [(f"line {line}", "syntax") for line in (7, 9, 20, 27)]
+    assert brief(loaded) == [(f"line {line}", "syntax") for line in (7, 9, 20, 29)]
     assert {"a", "c", "f", "g"} <= loaded.functions
     assert not {"b", "d", "E", "not_a_function"} & loaded.functions
     assert loaded.notes[0].message.startswith("SyntaxError: Missing parentheses")
