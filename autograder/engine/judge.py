@@ -84,7 +84,9 @@ class Judge:
         checks = [self._by_itself(check, found, first) for check, found in zip(checks, apart, strict=True)]
         unpaid = [found for check, found in zip(checks, apart, strict=True) if not check.points]
         still = f"; {_AGAIN}, it is still wrong" if any(each and each.failure is None for each in unpaid) else ""
-        return _verdict(stage, points, checks, status, lead=" ".join(filter(None, [said, f"{first}{still}." if unpaid else ""])))
+        return _verdict(
+            stage, points, checks, status, lead=" ".join(filter(None, [said, f"{first}{still}." if unpaid else ""]))
+        )
 
     def _by_itself(self, check: CheckVerdict, apart: Reply | None, first: str) -> CheckVerdict:
         """Pay the follow-through share for a check that is right by itself."""
