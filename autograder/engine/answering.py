@@ -27,8 +27,8 @@ def judge_answers(
     """
     points = plan.points[stage.NAME]
     findings = {
-        "iterates": stage.iterates_finding(sheet, given.iterates, given.bad),
-        "conclusion": stage.conclusion_finding(sheet, given.conclusion),
+        "iterates": stage.iterates_finding(sheet, given.iterates, given.said_of("iterates")),
+        "conclusion": stage.conclusion_finding(sheet, given.conclusion, given.said_of("conclusion")),
     }
     followed = False
     if given.iterates is not None and not findings["iterates"].right and _earns(plan, marks):
@@ -91,11 +91,14 @@ def own_steps(plan: Plan, session: Session, sheet: Sheet) -> Any:
     return np.array(found)
 
 
-def judge_written(points: float, texts: Mapping[str, str]) -> StageVerdict:
+def judge_written(points: float, texts: Mapping[str, str], given: Answers) -> StageVerdict:
     """Say whether there is something to mark; the points come from a human reader."""
     absent = written.unanswered(texts)
     everything = len(absent) == len(written.QUESTIONS)
-    message = f"question {' and '.join(absent)}: no answer." if absent else ""
+    unusable = {question: given.said_of(f"written_{question}") for question in absent}
+    silent = [question for question, said in unusable.items() if not said]
+    sentences = [f"question {' and '.join(silent)}: no answer."] if silent else []
+    message = " ".join([*sentences, *(f"written_{question}: {said}." for question, said in unusable.items() if said)])
     return StageVerdict(
         name=written.NAME,
         status="missing" if everything else "awaiting_mark",

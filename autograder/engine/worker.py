@@ -123,7 +123,7 @@ class Examiner:
             stages = attempt("taking the words", only_words, marks, stages) or marks
         texts = _texts(given, job.markdown_answers)
         if written.NAME in self.plan.points:
-            stages.append(judge_written(self.plan.points[written.NAME], texts))
+            stages.append(judge_written(self.plan.points[written.NAME], texts, given))
         return Graded(
             stages=tuple(stages),
             notes=tuple(f"{note.where}: {note.message}" for note in collected.loaded.notes),

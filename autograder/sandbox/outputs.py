@@ -82,6 +82,17 @@ class Answers:
     written_3: str | None = None
     bad: str = ""
 
+    def said_of(self, name: str) -> str:
+        """Return what is said of an answer that could not be used; "" where it is there, or nobody wrote one.
+
+        Examples
+        --------
+        >>> Answers(bad="iterates: got a dict; conclusion: got an int").said_of("conclusion")
+        'got an int'
+        """
+        parts = self.bad.split("; ")
+        return next((part.removeprefix(f"{name}: ") for part in parts if part.startswith(f"{name}: ")), "")
+
 
 @dataclass(frozen=True)
 class Fate:

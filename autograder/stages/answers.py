@@ -59,9 +59,10 @@ class Finding:
 
 def iterates_finding(sheet: Sheet, got: Array | None, bad: str = "") -> Finding:
     """Compare the reported iterates with those of the variant on record."""
-    if got is None:
-        return Finding(bool(bad), False, bad or "iterates is unfinished: it is None.")
     wanted = sheet.iterates
+    if got is None:
+        words = f"iterates: {bad}, expected an array of shape {wanted.shape}." if bad else ""
+        return Finding(bool(bad), False, words or "iterates is unfinished: it is None.")
     if got.shape != wanted.shape:
         return Finding(True, False, f"iterates has shape {got.shape}, expected {wanted.shape}: a row for each iterate.")
     if not np.isfinite(got).all():
@@ -76,10 +77,10 @@ def iterates_finding(sheet: Sheet, got: Array | None, bad: str = "") -> Finding:
     )
 
 
-def conclusion_finding(sheet: Sheet, got: str | None) -> Finding:
+def conclusion_finding(sheet: Sheet, got: str | None, bad: str = "") -> Finding:
     """Compare the choice that a letter names with the right one."""
     if got is None:
-        return Finding(False, False, "conclusion is unfinished: it is None.")
+        return Finding(bool(bad), False, f"conclusion: {bad}." if bad else "conclusion is unfinished: it is None.")
     choice = choice_of(sheet.variant, got)
     if choice is None:
         last = choices(sheet.variant)[-1].letter

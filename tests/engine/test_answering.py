@@ -176,3 +176,12 @@ def test_written_answers_await_a_reader(graded):
     assert stages["written"].status == "awaiting_mark"
     assert (result.provisional, result.awaiting) == (True, 5.0)
     assert result.written == {"2": "zero", "3": "linear"}
+
+
+def test_each_answer_that_cannot_be_used_is_named_for_itself(graded):
+    """What came stands with its own name; nothing that was written is called None, or no answer."""
+    stages, _ = graded(REFERENCE + "\nconclusion = 3\niterates = {}\nwritten_3 = [1]\n")
+    assert "iterates: got a dict, expected an array of shape (4, 5)." in stages["answers"].message
+    assert "conclusion: got an int, expected a string." in stages["answers"].message
+    assert stages["written"].message == "question 2: no answer. written_3: got a list of 1, expected a string."
+    assert "None" not in stages["answers"].message

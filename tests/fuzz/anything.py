@@ -28,6 +28,8 @@ ARGUMENTS = {
     "range_residual": "x, ranging",
     "range_jacobian": "x, ranging",
 }
+ANSWERS = ("iterates", "conclusion", "written_2", "written_3")
+REPORTED = (4, 5)  # the shape of the iterates of the worked example
 SIZE = {
     "graph": "graph.n_poses",
     "x, graph": "graph.n_poses",
@@ -355,6 +357,7 @@ class Drawn:
 
     text: str
     behaviours: dict[str, Behaviour] = field(default_factory=dict)
+    answers: dict[str, Value] = field(default_factory=dict)
     composed: bool = False
 
 
@@ -368,13 +371,10 @@ def drawn(seed: str) -> Drawn:
         behaviours.pop("gauss_newton_step", None)
     blocks = [each.code() for each in behaviours.values()] + [COMPOSED] * composed
     draw.shuffle(blocks)
-    answers = [
-        f"right = np.zeros((4, 5))\n{name} = {draw.choice(draw.choice(KINDS[:4])).code}\n"
-        for name in ("iterates", "conclusion", "written_2", "written_3")
-        if draw.random() < 0.3
-    ]
+    answers = {name: draw.choice(draw.choice(KINDS[:4])) for name in ANSWERS if draw.random() < 0.3}
+    reported = [f"right = np.ones({REPORTED})\n{name} = {value.code}\n" for name, value in answers.items()]
     prelude = PRELUDE.format(reference=inspect.getsource(slam1d))
-    return Drawn("\n\n".join([prelude, *blocks, *answers]), behaviours, composed)
+    return Drawn("\n\n".join([prelude, *blocks, *reported]), behaviours, answers, composed)
 
 
 def _behaviour(draw: random.Random, name: str) -> Behaviour:

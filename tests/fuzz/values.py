@@ -24,7 +24,7 @@ from typing import Any
 from autograder.engine.attempts import STRICT
 from autograder.exports.gradescope.results import results_json
 from autograder.verdicts import decode
-from tests.fuzz.anything import ARGUMENTS, PARTS, Behaviour, Drawn, Value, drawn
+from tests.fuzz.anything import ARGUMENTS, PARTS, REPORTED, Behaviour, Drawn, Value, drawn
 
 ROOT = Path(__file__).resolve().parents[2]
 _TAG = re.compile(r"<[^>]*>")
@@ -91,7 +91,34 @@ def examined(out: Path, name: str, submission: Drawn) -> list[str]:
         faults.append(f"cannot be exported: {type(error).__name__}: {error}")
     for stage in result["stages"]:
         faults += [f"{stage['name']}: {fault}" for fault in stage_faults(stage, submission)]
+        if stage["name"] in {"answers", "written"}:
+            faults += [f"{stage['name']}: {fault}" for fault in answer_faults(stage, submission)]
     return faults
+
+
+def answer_faults(stage: dict[str, Any], submission: Drawn) -> list[str]:
+    """Hold what is said of the reported answers of one stage against what was reported."""
+    said = stage["message"].replace("question 2 and 3:", "question 2: no answer. question 3:")
+    names = ("iterates", "conclusion") if stage["name"] == "answers" else ("written_2", "written_3")
+    reported = {name: submission.answers[name] for name in names if name in submission.answers}
+    return [f"{name} = {value.code}: {said}" for name, value in reported.items() if not said_of(name, value, said)]
+
+
+def said_of(name: str, value: Value, message: str) -> bool:
+    """Whether a message says of a reported answer what it is."""
+    if value.code == "None":
+        return f"{name} is unfinished" in message or f"question {name[-1]}: no answer" in message
+    if name != "iterates":
+        return value.code == "'abc'" or f"{name}: got " in message or "conclusion is 'abc'" in message
+    if value.words:
+        return f"iterates: got {value.words}"[:40] in message
+    if value.odd:
+        return "iterates holds nan or inf" in message
+    assert value.shape is not None
+    shape = value.shape(REPORTED)
+    if shape != REPORTED:
+        return f"iterates has shape {shape}, expected" in message or f"iterates: got shape {shape}" in message
+    return "of iterates, x^(" in message or "iterates" not in message
 
 
 def letters(text: str) -> str:
