@@ -23,6 +23,7 @@ MAX_NOTEBOOK = 20 << 20  # bytes of the file, outputs included
 MAX_CELLS = 10_000
 _LONGEST_NAME = 64  # of a variant
 _MAX_RAW = 6 * MAX_SOURCE  # a source as JSON: escapes make it longer, at most six bytes for one
+_MAX_ATTACHED = 8 << 20  # bytes of the attachments of one cell as JSON; of pictures less than that is shown
 _UTF8_MARK = b"\xef\xbb\xbf"
 _HIGH, _LOW = rb"\\u[dD][89abAB][0-9a-fA-F]{2}", rb"\\u[dD][c-fC-F][0-9a-fA-F]{2}"
 _SURROGATES = re.compile(rb"(?<!\\)((?:\\\\)*)(?:(%b%b)|%b|%b)" % (_HIGH, _LOW, _HIGH, _LOW))
@@ -68,7 +69,7 @@ class _Metadata(msgspec.Struct):
 
 _METADATA = msgspec.json.Decoder(_Metadata)
 _NOTEBOOK = msgspec.json.Decoder(_Notebook)
-_ATTACHMENTS = msgspec.json.Decoder(dict[str, dict[str, str]])
+_ATTACHMENTS = msgspec.json.Decoder(dict[str, msgspec.Raw])  # each is read only where the cell shows it
 _WORKSHEETS = msgspec.json.Decoder(list[_Worksheet])
 _SOURCE = msgspec.json.Decoder(str | list[str])
 
@@ -238,8 +239,8 @@ def _markdown(cells: list[_Cell]) -> tuple[list[str], dict[str, str]]:
     return texts, pictures
 
 
-def _attached(cell: _Cell) -> dict[str, dict[str, str]]:
-    if isinstance(cell.attachments, msgspec.UnsetType):
+def _attached(cell: _Cell) -> dict[str, msgspec.Raw]:
+    if isinstance(cell.attachments, msgspec.UnsetType) or memoryview(cell.attachments).nbytes > _MAX_ATTACHED:
         return {}
     try:
         return _ATTACHMENTS.decode(cell.attachments)

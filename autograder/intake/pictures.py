@@ -7,19 +7,25 @@ import binascii
 import hashlib
 import re
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import islice
+
+import msgspec
 
 MAX_PICTURE = 512 << 10  # bytes of one picture
 MAX_PICTURES = 2 << 20  # bytes of all pictures of a submission
+_MOST = 64  # pictures that one cell shows; each is looked for again in the written answers
+_KINDS = 4  # media types of one attachment that are looked at
 _MAX_SIDE = 8192  # pixels
 _ATTACHMENT = re.compile(r"attachment:([^\s)\"'>]{1,200})")
+_KINDS_OF = msgspec.json.Decoder(dict[str, str])
 _PNG = b"\x89PNG\r\n\x1a\n"
 _KEPT = {b"IHDR", b"PLTE", b"tRNS", b"IDAT", b"IEND"}  # what a picture needs; text, times and colours of a camera go
 _FRAMES = {*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC}  # markers that carry the size of a JPEG
 _SCAN = 0xDA
 
 
-def with_pictures(text: str, attached: Mapping[str, Mapping[str, str]], left: int) -> tuple[str, dict[str, str], int]:
+def with_pictures(text: str, attached: Mapping[str, msgspec.Raw], left: int) -> tuple[str, dict[str, str], int]:
     """Name the attachments of one cell by their content, and return those that may be shown.
 
     Parameters
@@ -27,7 +33,7 @@ def with_pictures(text: str, attached: Mapping[str, Mapping[str, str]], left: in
     text : str
         Markdown of the cell.
     attached : mapping
-        Name -> media type -> base64, as Jupyter writes it.
+        Name -> media type -> base64, as Jupyter writes it, the inner table still undecoded.
     left : int
         Bytes that this submission may still use.
 
@@ -38,10 +44,9 @@ def with_pictures(text: str, attached: Mapping[str, Mapping[str, str]], left: in
     """
     names: dict[str, str] = {}
     pictures: dict[str, str] = {}
-    for name, kinds in attached.items():
-        if f"attachment:{name}" not in text:
-            continue
-        for data in kinds.values():
+    shown = dict.fromkeys(found[1] for found in _ATTACHMENT.finditer(text))  # each once: a cell may name one often
+    for name in islice((name for name in shown if name in attached), _MOST):
+        for data in islice(_kinds(attached[name]), _KINDS):
             if len(data) > 2 * MAX_PICTURE:
                 continue
             try:
@@ -55,8 +60,17 @@ def with_pictures(text: str, attached: Mapping[str, Mapping[str, str]], left: in
             names[name] = f"{hashlib.sha256(clean).hexdigest()[:20]}.{kind}"
             pictures[names[name]] = f"data:image/{kind};base64,{base64.b64encode(clean).decode()}"
             break
+    if not names:
+        return text, pictures, left
     renamed = _ATTACHMENT.sub(lambda found: f"attachment:{names.get(found[1], found[1])}", text)
     return renamed, pictures, left
+
+
+def _kinds(raw: msgspec.Raw) -> Iterable[str]:
+    try:
+        return _KINDS_OF.decode(raw).values()
+    except (msgspec.DecodeError, RecursionError, ValueError):
+        return ()
 
 
 def cleaned(data: bytes) -> tuple[str, bytes] | None:

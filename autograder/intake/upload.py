@@ -14,7 +14,9 @@ EXPECTED = "expected one .py, .ipynb or .zip file"
 HOMEWORK = "slam1d"  # the name under which the homework is handed out
 CORE = {b"residual", b"jacobian", b"information_matrix", b"normal_equations", b"gauss_newton_step"}
 _OPEN = re.compile(rb"\b(\w{1,40}) is not finished yet: replace this line")  # what a stub raises, as handed out
-_LARGEST_STUB = 1 << 20  # bytes
+_DEFINED = re.compile(rb"(?:\\n|\b)def[ \t]+(\w{1,40})[ \t]*\(")
+_EXPLORE, _OF_EXPLORE = "explore", {b"residual", b"jacobian"}  # the notebook to play with defines these itself
+_LARGEST = 20 << 20  # bytes: a notebook with its outputs
 _COMPANIONS = re.compile(r"(__init__|conftest|setup|noxfile|test_.*|.*_test)\.py", re.IGNORECASE)
 _WRONG_KINDS = re.compile(r".*(\.(rar|7z|tar|tgz|gz|bz2|xz|pyw|pyc)|\.(py|ipynb)\.(txt|json|html))", re.IGNORECASE)
 
@@ -54,39 +56,57 @@ class Upload:
 
 
 def choose(entries: Sequence[Entry]) -> tuple[Entry | None, str, tuple[str, ...]]:
-    """Pick the one file that counts among those of one student: (entry, problem, notes).
+    """Pick the one file that counts among those of one attempt: (entry, problem, notes).
 
-    Nothing is guessed: of several files only one that has the name of the homework is taken, and that is noted. Where
-    module and notebook were both handed in, because they were handed out together, the one in which no function was
-    begun does not count.
+    What was begun counts: a file that defines a function of the homework, and not only as it was handed out. Two that
+    were begun are for a human; where none was, the one that has the name of the homework is taken.
     """
     candidates = [entry for entry in entries if is_candidate(entry)]
     if len(candidates) > 1:
         candidates = without_companions(candidates)
     if len(candidates) == 1:
         return candidates[0], "", ()
+    begun = [entry for entry in candidates if is_begun(entry)]
     named = [entry for entry in candidates if entry.stem.casefold() == HOMEWORK]
-    if len(named) > 1:
-        named = [entry for entry in named if not _is_untouched(entry)]
-    if len(named) == 1:
-        others = listing([entry.name for entry in candidates if entry is not named[0]])
-        return named[0], "", (f"Graded {named[0].name}; also handed in and not graded: {others}.",)
+    chosen = begun or [entry for entry in named if not _is_untouched(entry)] or named[:1]
+    if len(chosen) == 1:
+        others = listing([entry.name for entry in candidates if entry is not chosen[0]])
+        return chosen[0], "", (f"Graded {chosen[0].name}; also handed in and not graded: {others}.",)
     if candidates:
-        names = listing([entry.name for entry in candidates])
-        return None, f"holds {len(candidates)} submissions ({names}), {EXPECTED}; keep the one that counts", ()
+        names = listing([entry.name for entry in begun or candidates])
+        return None, f"holds {len(begun or candidates)} submissions ({names}), {EXPECTED}; keep the one that counts", ()
     found = [entry.name for entry in entries]
     if any(name.casefold() in PROVIDED_FILES for name in found):
         return None, f"holds only files that were handed out ({listing(found)}), {EXPECTED}", ()
     return None, f"holds no submission (found {listing(found) or 'nothing'}), {EXPECTED}", ()
 
 
+def stands_alone(entries: Sequence[Entry]) -> bool:
+    """Say whether one student's work lies here, by the names alone: one file, or one that has the homework's name."""
+    candidates = without_companions([entry for entry in entries if is_candidate(entry)])
+    return len(candidates) == 1 or any(entry.stem.casefold() == HOMEWORK for entry in candidates)
+
+
+def is_begun(entry: Entry) -> bool:
+    """Say whether a file defines a function of the homework other than as it was handed out; where in doubt, yes."""
+    defined, unfinished = _functions(entry)
+    if entry.stem.casefold().startswith(_EXPLORE):
+        unfinished = unfinished | _OF_EXPLORE
+    return entry.suffix == ".zip" or bool(defined - unfinished)
+
+
 def _is_untouched(entry: Entry) -> bool:
     """Say whether every function of a file is as unfinished as it was handed out."""
+    return _functions(entry)[1] >= CORE
+
+
+def _functions(entry: Entry) -> tuple[set[bytes], set[bytes]]:
+    """Find which of the main functions a file defines, and which of them are still as they were handed out."""
     try:
-        data = entry.load(_LARGEST_STUB)
+        data = b"" if entry.problem else entry.load(_LARGEST)
     except RejectedUpload:
-        return False
-    return CORE.issubset(_OPEN.findall(data))
+        return set(), set()
+    return CORE.intersection(_DEFINED.findall(data)), CORE.intersection(_OPEN.findall(data))
 
 
 def without_companions(entries: Sequence[Entry]) -> list[Entry]:

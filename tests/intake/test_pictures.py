@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import time
 import zlib
 
 import pytest
@@ -99,3 +100,15 @@ def test_odd_attachments_leave_the_text_as_it_is(attached: object) -> None:
     read = read_notebook(notebook(("see ![a](attachment:image.png)", attached)))  # type: ignore[arg-type] - that is the test
     assert read.markdown == ("see ![a](attachment:image.png)",)
     assert read.pictures == {}
+
+
+def test_many_attachments_named_many_times_are_read_in_one_pass() -> None:
+    """Neither their number nor how often a cell names one is multiplied with the other."""
+    few, many = (notebook(("attachment:zzzzz " * (n // 2), {f"{k}": {} for k in range(n)})) for n in (20_000, 400_000))
+    spent = []
+    for data in (few, many):
+        began = time.process_time()
+        read_notebook(data)
+        spent.append(time.process_time() - began)
+    assert spent[1] < 2.0
+    assert spent[1] < 100 * max(spent[0], 0.005)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from autograder.intake.naming import printable
 from autograder.intake.tree import Entry, Tree, is_candidate
-from autograder.intake.upload import HOMEWORK, Upload, choose, listing, strays, without_companions
+from autograder.intake.upload import Upload, choose, listing, strays
 
 TITLE = "Canvas submissions.zip"
 
@@ -36,7 +36,7 @@ def recognise(tree: Tree) -> float:
 
 
 def gather(tree: Tree) -> list[Upload]:
-    """Take the newest file of each student; text entries and links are reported where there is no file."""
+    """Take the file that counts of each student; text entries and links are reported where there is no file."""
     students: dict[str, list[_Attachment]] = {}
     others: dict[str, tuple[Entry, str]] = {}
     uploads: list[Upload] = []
@@ -50,7 +50,7 @@ def gather(tree: Tree) -> list[Upload]:
             others[_student(found)] = (entry, _id(found))
         else:
             uploads += strays([entry])
-    uploads += [_newest(student, attachments) for student, attachments in students.items()]
+    uploads += [_upload(student, attachments) for student, attachments in students.items()]
     for student, (entry, student_id) in others.items():
         if student not in students:
             problem = "is a text or a link typed into Canvas, expected one .py, .ipynb or .zip file"
@@ -58,21 +58,21 @@ def gather(tree: Tree) -> list[Upload]:
     return uploads
 
 
-def _newest(student: str, attachments: list[_Attachment]) -> Upload:
-    """Take the newest file, of those with the homework's name where there are any."""
-    candidates = [one for one in attachments if is_candidate(one.own)]
-    kept = without_companions([one.own for one in candidates])
-    named = [one for one in candidates if _ATTEMPT.sub("", one.own.stem).casefold() == HOMEWORK]
-    pool = named or [one for one in candidates if one.own in kept]
-    if not pool:
-        _, problem, _ = choose([one.own for one in attachments])
-        first = attachments[0]
-        return Upload(student, None, problem, folder=student, student_id=first.student_id, late=first.late)
-    newest = max(pool, key=lambda one: one.number)
-    left = [one.own.name for one in sorted(candidates, key=lambda one: -one.number) if one is not newest]
-    words = f"Graded {printable(newest.own.name)[:80]}, the newest; also handed in: {listing(left)}."
-    notes = (words,) if left else ()
-    return Upload(student, newest.entry, notes=notes, student_id=newest.student_id, late=newest.late)
+def _upload(student: str, attachments: list[_Attachment]) -> Upload:
+    """Take what counts of a student: of files that are one and the same handed in again, only the newest."""
+    newest: dict[str, _Attachment] = {}
+    for one in sorted(attachments, key=lambda one: one.number):
+        newest[_ATTEMPT.sub("", one.own.stem).casefold() + one.own.suffix] = one
+    by_entry = {id(one.own): one for one in newest.values()}
+    entry, problem, notes = choose([one.own for one in newest.values()])
+    chosen = by_entry[id(entry)] if entry is not None else max(newest.values(), key=lambda one: one.number)
+    again = [one.own.name for one in attachments if one not in newest.values()]
+    if again and entry is not None:
+        notes = (*notes, f"Graded {printable(entry.name)[:80]}, the newest; handed in before: {listing(again)}.")
+    return Upload(
+        student, chosen.entry if entry is not None else None, problem,
+        folder=student, notes=notes, student_id=chosen.student_id, late=chosen.late,
+    )  # fmt: skip
 
 
 def _is_ours(entry: Entry) -> bool:

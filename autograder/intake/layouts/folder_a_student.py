@@ -6,15 +6,15 @@ from itertools import groupby
 
 from autograder.intake.layouts import GENERIC
 from autograder.intake.tree import Entry, Tree, is_candidate, is_noise
-from autograder.intake.upload import Upload, choose
+from autograder.intake.upload import Upload, choose, stands_alone
 
 TITLE = "a folder a student"
 
 
 def recognise(tree: Tree) -> float:
     """Claim trees whose submissions lie alone in their folders; beside files at the top, only where all do."""
-    found = [choose(entries) for entries in by_folder(tree).values() if any(map(is_candidate, entries))]
-    alone = sum(entry is not None for entry, _, _ in found)
+    found = [stands_alone(entries) for entries in by_folder(tree).values() if any(map(is_candidate, entries))]
+    alone = sum(found)
     if _at_top(tree):
         return 0.2 if found and alone == len(found) else 0.0
     return GENERIC if found and 2 * alone >= len(found) else 0.0

@@ -74,11 +74,26 @@ def test_a_student_without_a_submission_is_not_lost(tmp_path: Path) -> None:
         "alice": "",
         "bob": f"bob holds no submission (found report.pdf), {expected}.",
         "carol": f"carol holds 2 submissions (one.py, two.py), {expected}; keep the one that counts.",
-        "dave": "",
+        "dave": f"dave holds 2 submissions (extra.py, slam1d.py), {expected}; keep the one that counts.",
         "erin": f"erin holds no submission (found nothing), {expected}.",
         "frank": f"frank holds only files that were handed out (posegraph.py), {expected}.",
     }
-    assert found["dave"].notes == ("Graded slam1d.py; also handed in and not graded: extra.py.",)
+
+
+@pytest.mark.parametrize("other", ["utils.py", "slam1d.ipynb", "explore.ipynb", "old.py"])
+def test_of_several_files_what_was_begun_counts(tmp_path: Path, other: str) -> None:
+    """Whatever it is called, and whatever was handed out beside it; the rest is named."""
+    beside = {
+        "utils.py": "import numpy as np\n",
+        "slam1d.ipynb": Path("assignment/slam1d.ipynb").read_text(),
+        "explore.ipynb": Path("assignment/explore.ipynb").read_text(),
+        "old.py": "notes = 1\n",
+    }
+    write(tmp_path, {"dave/homework3.py": CODE, f"dave/{other}": beside[other], "erin/slam1d.py": CODE})
+    found = by_id(tmp_path, "folder_a_student")
+    assert found["dave"].source is not None
+    assert found["dave"].source.name == "homework3.py"
+    assert found["dave"].notes == (f"Graded homework3.py; also handed in and not graded: {other}.",)
 
 
 def test_a_plain_folder_names_submissions_by_their_stem(tmp_path: Path) -> None:

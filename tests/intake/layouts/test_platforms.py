@@ -121,7 +121,7 @@ def test_canvas_takes_the_newest_attempt_of_each_user(tmp_path: Path) -> None:
         "zoëq_1006": ("1006", False),
     }
     assert {each.layout for each in found.values()} == {"canvas"}
-    assert found["doejane_1001"].notes == ("Graded slam1d-1.py, the newest; also handed in: slam1d.py.",)
+    assert found["doejane_1001"].notes == ("Graded slam1d-1.py, the newest; handed in before: slam1d.py.",)
     assert found["doejane_1001"].source is not None
     assert found["doejane_1001"].source.cells == [CODE + "# second\n"]
     assert [name for name, each in found.items() if each.rejection] == ["textonly_1005", "zoëq_1006"]
