@@ -14,6 +14,7 @@ import html
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -207,6 +208,8 @@ def main() -> None:
     seconds = time.perf_counter() - began
     print(f"{told.count} submissions with seed {told.seed} in {seconds:.0f} s: {len(faults)} faults.", end=" ")
     print(f"Everything is kept in {folder}." if faults else "No page is wrong.")
+    if not faults:
+        shutil.rmtree(folder)
     sys.exit(bool(faults))
 
 
