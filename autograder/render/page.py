@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import cache, lru_cache
+from html import unescape
+from itertools import zip_longest
+from math import ceil
 from typing import Any
 
 from markdown_it import MarkdownIt
@@ -85,9 +89,31 @@ def _formula(content: str, fence: str) -> str:
     if shown is None:
         raise ValueError(f"a formula must be one that MathML can be made of, got {content[:80]!r}")
     if fence == "$$":
-        block = shown.replace("<math>", '<math display="block">', 1)
-        return f'<span class="scroll shown" tabindex="0">{block}</span>'
-    return f'<span class="scroll" tabindex="0">{shown}</span>' if "<mtable>" in shown else shown
+        block, frame = shown.replace("<math>", '<math display="block">', 1), "scroll shown"
+    elif "<mtable>" in shown:
+        block, frame = shown, "scroll"
+    else:
+        return shown
+    return f'<span class="{frame}" style="--ems: {_ems(shown)}" tabindex="0">{block}</span>'
+
+
+def _ems(shown: str) -> int:
+    """Estimate how wide a formula is, in the size of its font: paper does not scroll, so it is made to fit there.
+
+    A character counts 0.75, which few fonts need; of a column its longest cell counts, and its padding.
+    """
+    rest, *tables = re.split(r"<mtable>(?=<mtr>)", shown)
+    columns = 0.0
+    for table in tables:
+        inside, _, after = table.partition("</mtable>")
+        rows = [[_length(cell) for cell in row.split("</mtd>")[:-1]] for row in inside.split("</mtr>")]
+        columns += sum(0.75 * longest + 0.8 for longest in map(max, zip_longest(*rows, fillvalue=0)))
+        rest += after
+    return ceil(columns + 0.75 * _length(rest) + len(tables)) + 1
+
+
+def _length(markup: str) -> int:
+    return len(unescape(re.sub(r"<[^>]*>", "", markup)))
 
 
 def _render_math(_: RendererHTML, tokens: Sequence[Token], index: int, __: Any, ___: Any) -> str:
