@@ -1,9 +1,12 @@
 """Whole submissions in a real sandbox: what is right earns full points, what is wrong costs itself alone."""
 
+import numpy as np
 import pytest
 
+from assignment.posegraph import PoseGraph
 from autograder.stages.catalogue import all_stages, slips
 from autograder.stages.slips.submission import submission_text
+from reference_solution import slam1d
 from tests.engine.conftest import REFERENCE
 
 STAGES = [stage.name for stage in all_stages()]
@@ -188,3 +191,18 @@ def test_each_function_of_a_stage_is_asked_whether_or_not_the_other_is_there(gra
     verdict = grade_source(text)["range_factor"]
     assert {check.name: check.passed for check in verdict.checks} == {"distances": False, "derivatives": True}
     assert verdict.checks[0].message == "range_residual is not defined in the submission."
+
+
+def test_what_is_wrong_in_the_second_round_is_shown_there(grade_source):
+    """A step that gives nothing at the minimum is said to, with the call that was made there."""
+    text = REFERENCE + (
+        "\n\n_step = gauss_newton_step\n\ndef gauss_newton_step(x, graph):\n    dx = _step(x, graph)\n"
+        "    return None if np.abs(dx).max() < 1e-6 else dx\n"
+    )
+    verdict = grade_source(text)["second_step"]
+    check = next(check for check in verdict.checks if not check.passed)
+    assert check.message == "gauss_newton_step(x + dx(x), graph) returned None; expected an array of real numbers."
+    shown = check.counterexample
+    graph = PoseGraph(**shown["graph"])
+    assert np.abs(slam1d.gauss_newton_step(np.array(shown["x"]), graph)).max() < 1e-6
+    assert shown["got"] == "None"
