@@ -60,6 +60,25 @@ def convention(pairs: Iterable[tuple[Rows | None, Rows]]) -> Convention | None:
     return Convention(reordered, turned) if reordered or turned else None
 
 
+def rows_alike(one: Array, other: Array, within: float) -> bool:
+    """Whether two arrays hold the same rows, in whatever order; a row of numbers or a single number each.
+
+    Examples
+    --------
+    >>> rows_alike(np.array([1.0, 2.0, 2.0]), np.array([2.0, 1.0, 2.0]), 1e-6)
+    True
+    >>> rows_alike(np.array([1.0, 1.0, 2.0]), np.array([2.0, 1.0, 2.0]), 1e-6)
+    False
+    """
+    free = list(other)
+    for row in one:
+        found = next((place for place, each in enumerate(free) if (np.abs(each - row) <= within).all()), None)
+        if found is None:
+            return False
+        del free[found]
+    return not free
+
+
 def _match(given: Rows, expected: Rows) -> tuple[Array, Array] | None:
     """Pair every row of the student's with one of the expected rows, up to its sign."""
     m = len(expected.f)

@@ -1,7 +1,8 @@
 """A few more calls tell: whether it looks at x, whether it remembers, whether the order of edges matters.
 
 A probe names calls of the submission's own functions and reads what comes back. It runs for a
-mistake that no catalogue knows, once a group.
+mistake that no catalogue knows. What it says holds of what it saw: wherever a number is missing or not finite,
+it says nothing.
 """
 
 from __future__ import annotations
@@ -13,82 +14,119 @@ from dataclasses import dataclass
 import numpy as np
 
 from assignment.posegraph import PoseGraph
+from autograder.diagnosis.equivalence import rows_alike
 from autograder.problems import core
 from autograder.problems.cases import Case
 from autograder.stages.base import Array
+from autograder.stages.same import different, finite, same
+from autograder.stages.wording import vector
 
-CLOSE = 1e-6
+SEEN, ROUNDING = 1e-6, 1e-12  # of the largest number: what is surely another one, and what is surely the same
 Values = Sequence[Array | None]
 
 # Small graphs with everything in them: loops, backward and doubled edges, other priors.
-_CASES: tuple[Case, ...] = (*core.SEVERAL_LOOPS[:3], *core.PRIORS[3:5])
+CASES: tuple[Case, ...] = (*core.SEVERAL_LOOPS[:3], *core.PRIORS[3:5])
+_SYSTEMS: tuple[Case, ...] = (*core.DENSE[:3], *core.GRAPH_SHAPED[:2])
 
 
 @dataclass(frozen=True)
 class Probe:
-    """Calls of one function, and what to say if their answers show something; "" if not."""
+    """Calls of one function, and what to say if their answers show something; "" if not.
+
+    Each round of calls is made in a child of its own, which has answered nothing before.
+    """
 
     function: str
-    calls: tuple[Case, ...]
-    read: Callable[[Values], str]
+    rounds: tuple[tuple[Case, ...], ...]
+    read: Callable[..., str]
+
+
+def remembers(function: str) -> Probe:
+    """Ask the same questions in another order."""
+    calls = _SYSTEMS if function == "normal_equations" else _calls(function, CASES)
+    order = [3, 0, 4, 2, 1]
+
+    def read(first: Values, second: Values) -> str:
+        parts = len(first) // len(calls)
+        pairs = [
+            (first[number * parts + part], second[place * parts + part])
+            for place, number in enumerate(order)
+            for part in range(parts)
+        ]
+        if not any(_differ(one, other) for one, other in pairs):
+            return ""
+        return (
+            "It answers the same question differently when the questions come in another order: "
+            "something is kept between calls, or drawn at random."
+        )
+
+    return Probe(function, (calls, tuple(calls[number] for number in order)), read)
 
 
 def probes(function: str) -> list[Probe]:
-    """Return the probes that suit a function of (x, graph) or (graph)."""
-    takes_state = function in {"residual", "jacobian", "gauss_newton_step"}
-    if not takes_state and function != "information_matrix":
-        return []
-    found = [_repeated(function), _reversed(function)]
-    if function in {"residual", "gauss_newton_step"}:
-        found.append(_ignores_state(function))
-    if function == "jacobian":
-        found.append(_constant(function))
-    return found
+    """Return the probes that suit a function of (x, graph) or (graph) which remembers nothing."""
+    found = {
+        "residual": [_reversed(function), _ignores_state(function)],
+        "jacobian": [_reversed(function), _constant(function)],
+        "information_matrix": [_reversed(function)],
+        "gauss_newton_step": [_reversed(function), _ignores_state(function)],
+    }
+    return found.get(function, [])
 
 
 def _calls(function: str, cases: Sequence[Case]) -> tuple[Case, ...]:
     return tuple((graph,) if function == "information_matrix" else (x, graph) for x, graph in cases)
 
 
-def _same(one: Array | None, other: Array | None) -> bool:
-    if one is None or other is None:
-        return one is other
-    return one.shape == other.shape and bool((np.abs(one - other) <= CLOSE * (1.0 + np.abs(other))).all())
+def _size(*arrays: Array | None) -> float:
+    """Return the largest number of some arrays, and 1 at least."""
+    return max([1.0, *(float(np.abs(each).max(initial=0.0)) for each in arrays if each is not None)])
 
 
-def _repeated(function: str) -> Probe:
-    def read(values: Values) -> str:
-        half = len(values) // 2
-        changed = any(not _same(one, other) for one, other in zip(values[:half], values[half:], strict=True))
-        return (
-            "It answers the same question differently the second time: something is kept between calls."
-            if changed
-            else ""
-        )
+def _differ(one: Array | None, other: Array | None) -> bool:
+    return finite(one, other) and different(one, other, SEEN * _size(one, other))
 
-    return Probe(function, _calls(function, _CASES) * 2, read)
+
+def _agree(one: Array | None, other: Array | None) -> bool:
+    return finite(one, other) and same(one, other, ROUNDING * _size(one, other))
 
 
 def _reversed(function: str) -> Probe:
-    turned = [(x, _with_edges_reversed(graph)) for x, graph in _CASES]
+    turned = [(x, _with_edges_reversed(graph)) for x, graph in CASES]
 
     def read(values: Values) -> str:
         half = len(values) // 2
-        for (_, graph), one, other in zip(_CASES, values[:half], values[half:], strict=True):
-            if one is None or other is None or one.shape != other.shape:
+        for (_, graph), one, other in zip(CASES, values[:half], values[half:], strict=True):
+            if one is None or other is None or one.shape != other.shape or not finite(one, other):
                 return ""
-            order = np.r_[np.arange(len(graph.edges))[::-1], np.arange(len(graph.edges), graph.n_factors)]
-            if function == "gauss_newton_step":
-                wanted = one
-            elif one.shape[:1] != (graph.n_factors,):
-                return ""
-            else:
-                wanted = one[np.ix_(order, order)] if function == "information_matrix" and one.ndim == 2 else one[order]
-            if not _same(other, wanted):
-                return "It depends on the order in which the edges are listed; a row should follow its edge."
+            if not _follows(function, graph, one, other):
+                return _order_matters(function, graph, one, other)
         return ""
 
-    return Probe(function, _calls(function, _CASES) + _calls(function, turned), read)
+    return Probe(function, (_calls(function, CASES) + _calls(function, turned),), read)
+
+
+def _follows(function: str, graph: PoseGraph, one: Array, other: Array) -> bool:
+    """Whether answers to two orders of the edges hold the same, each row beside its own edge or elsewhere."""
+    within = SEEN * _size(one, other)
+    if function == "gauss_newton_step" or len(np.atleast_1d(one)) != graph.n_factors:
+        return not _differ(one, other)
+    if function == "information_matrix":  # rows and columns change places together
+        one, other = np.sort(one), np.sort(other)
+    return rows_alike(one, other, within) or (one.ndim == 2 and rows_alike(one.T, other.T, within))
+
+
+def _order_matters(function: str, graph: PoseGraph, one: Array, other: Array) -> str:
+    """Say so, with the answers that show it."""
+    edges = ", ".join(f"{i} -> {j}" for i, j in graph.edges.tolist())
+    what = "a step does not depend on it" if function == "gauss_newton_step" else "a row should follow its edge"
+    shown = [vector(np.diag(each) if function == "information_matrix" else each) for each in (one, other)]
+    if function == "jacobian" or shown[0] == shown[1]:
+        return f"It depends on the order in which the edges are listed, of a graph with the edges {edges} say; {what}."
+    return (
+        f"It depends on the order in which the edges are listed: with the edges {edges} it gives {shown[0]}, "
+        f"and with the same edges from the last to the first {shown[1]}; {what}."
+    )
 
 
 def _with_edges_reversed(graph: PoseGraph) -> PoseGraph:
@@ -100,55 +138,73 @@ def _with_edges_reversed(graph: PoseGraph) -> PoseGraph:
     )
 
 
-def _ignores_state(function: str) -> Probe:
-    moved = [(x + 1.0 + np.arange(len(x)), graph) for x, graph in _CASES]
+def _moved(function: str) -> tuple[Case, ...]:
+    return _calls(function, CASES) + _calls(function, [(x + 1.0 + np.arange(len(x)), graph) for x, graph in CASES])
 
+
+def _ignores_state(function: str) -> Probe:
     def read(values: Values) -> str:
         half = len(values) // 2
-        if any(value is None for value in values):
-            return ""
-        ignored = all(_same(one, other) for one, other in zip(values[:half], values[half:], strict=True))
+        ignored = all(_agree(one, other) for one, other in zip(values[:half], values[half:], strict=True))
         return "It ignores x: another state gets the same answer." if ignored else ""
 
-    return Probe(function, _calls(function, _CASES) + _calls(function, moved), read)
+    return Probe(function, (_moved(function),), read)
 
 
 def _constant(function: str) -> Probe:
-    moved = [(x + 1.0 + np.arange(len(x)), graph) for x, graph in _CASES]
-
     def read(values: Values) -> str:
         half = len(values) // 2
-        if any(value is None for value in values):
+        if not any(_differ(one, other) for one, other in zip(values[:half], values[half:], strict=True)):
             return ""
-        same = all(_same(one, other) for one, other in zip(values[:half], values[half:], strict=True))
-        return (
-            ""
-            if same
-            else "J changes with x, but every row of f is linear in x: its derivative is the same everywhere."
-        )
+        return "J changes with x, but every row of f is linear in x: its derivative is the same everywhere."
 
-    return Probe(function, _calls(function, _CASES) + _calls(function, moved), read)
+    return Probe(function, (_moved(function),), read)
 
 
-def derivative_probe() -> tuple[Probe, Probe, Callable[[Values, Values], str]]:
+_FAR, _NEAR = 1.0, 1e-3  # [m] steps of the central differences: they agree where f is linear along every pose
+
+
+def derivative_probe(
+    right: Callable[..., Array], *, residual_is_wrong: bool
+) -> tuple[Probe, Probe, Callable[[Values, Values], str]]:
     """Return the calls of jacobian and of residual that tell whether J is the derivative of the student's own f.
 
-    f is linear in x, so a difference with a step of 1 is the derivative, up to rounding.
+    The student's f need not be linear in x: where a difference over 1 m and one over 1 mm do not agree, as with
+    rounded numbers or absolute values, nothing is said.
+
+    Parameters
+    ----------
+    right : callable
+        The reference's J: that J is wrong must show on the cases of the probe.
+    residual_is_wrong : bool
+        Whether residual lost points: only then is it a place where to look.
     """
-    shifted = [(x + unit, graph) for x, graph in _CASES for unit in (np.zeros(len(x)), *np.eye(len(x)))]
+    shifted = [
+        (x + side * step * unit, graph)
+        for x, graph in CASES
+        for unit in np.eye(len(x))
+        for step in (_FAR, _NEAR)
+        for side in (1.0, -1.0)
+    ]
 
     def read(jacobians: Values, residuals: Values) -> str:
-        start = 0
-        for (x, graph), J in zip(_CASES, jacobians, strict=True):
-            f = residuals[start : start + len(x) + 1]
-            start += len(x) + 1
-            rows = [each for each in f if each is not None and each.size == graph.n_factors]
-            if J is None or len(rows) != len(x) + 1:
+        place, equal, wrong = 0, True, False
+        for (x, graph), J in zip(CASES, jacobians, strict=True):
+            f = residuals[place : place + 4 * len(x)]
+            place += 4 * len(x)
+            if not finite(J, *f) or any(each is None or each.size != graph.n_factors for each in f):
                 return ""
-            own = np.array([row.ravel() - rows[0].ravel() for row in rows[1:]]).T
-            if not _same(J, own):
+            rows = np.array([np.ravel(each) for each in f if each is not None]).reshape(len(x), 2, 2, -1)
+            far, near = ((rows[:, s, 0] - rows[:, s, 1]).T / (2 * h) for s, h in enumerate((_FAR, _NEAR)))
+            if not same(far, near, 10 * SEEN * _size(far)):
+                return ""
+            equal &= same(J, far, 10 * SEEN * _size(far))
+            wrong |= different(J, right(x, graph), 10 * SEEN)
+            if different(J, far, 100 * SEEN * _size(far)):
                 return "J is not the derivative of your own residual: move one pose by 1 m and see how f changes."
-        return "J is the derivative of your own residual, so look for the mistake in residual."
+        if equal and wrong and residual_is_wrong:
+            return "J is the derivative of your own residual, so look for the mistake in residual."
+        return ""
 
-    nothing = lambda _: ""  # noqa: E731 - the two are read together
-    return Probe("jacobian", _CASES, nothing), Probe("residual", tuple(shifted), nothing), read
+    nothing = lambda *_: ""  # noqa: E731 - the two are read together
+    return Probe("jacobian", (CASES,), nothing), Probe("residual", (tuple(shifted),), nothing), read

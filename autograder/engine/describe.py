@@ -121,6 +121,8 @@ def remarks(tasks: Sequence[Task], replies: Sequence[Reply]) -> tuple[str, ...]:
             continue
         function = task.stage.function
         met = set(outputs.kinds.tobytes()) - ({Kind.BOOL_ARRAY} if task.stage.takes_truth else set())
+        if not reply.passed:
+            met -= {Kind.FLOAT32_ARRAY}  # where it costs points it is no matter of style
         for kind in sorted(met & _REMARKS.keys()):
             found[f"{function} {_REMARKS[Kind(kind)]}"] = None
         if outputs.reshaped:

@@ -8,13 +8,13 @@ The marks are final before; each step is an attempt, and one that fails leaves t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from msgspec.structs import replace
 
 from autograder.diagnosis.facts import Answered, facts
-from autograder.diagnosis.probes import Probe, Values, derivative_probe, probes
+from autograder.diagnosis.probes import Values, derivative_probe, probes, remembers
 from autograder.engine.attempts import Attempts
 from autograder.engine.collect import Reply, ask
 from autograder.engine.describe import swapped
@@ -22,6 +22,7 @@ from autograder.engine.follow import EARLIER, STAGE
 from autograder.engine.normal import array_of, put
 from autograder.engine.plan import Plan, Task
 from autograder.engine.showing import Example, counterexample, why
+from autograder.problems.cases import Case
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs, Session
 from autograder.stages.base import Stage
@@ -72,18 +73,30 @@ def explain(
     if not wanted:
         return list(verdicts)
     session.afresh()
-    return [_explained(session, plan, each, replies, attempt) if each.name in wanted else each for each in verdicts]
+    residual_is_wrong = any(each.name == "residual" and each.status != "passed" for each in verdicts)
+
+    def probed(stage: Stage) -> list[str]:
+        return _probed(session, plan, stage, residual_is_wrong=residual_is_wrong)
+
+    return [
+        _explained(session, plan, each, replies, attempt, probed) if each.name in wanted else each for each in verdicts
+    ]
 
 
 def _explained(
-    session: Session, plan: Plan, verdict: StageVerdict, replies: Mapping[int, Reply], attempt: Attempts
+    session: Session,
+    plan: Plan,
+    verdict: StageVerdict,
+    replies: Mapping[int, Reply],
+    attempt: Attempts,
+    probed: Callable[[Stage], list[str]],
 ) -> StageVerdict:
     number, check = _first_open(verdict)
     stage = plan.stage(verdict.name).facet(check.name)
     found: list[str] = []
     if verdict.slip is None:
         found += attempt(f"reading facts off {stage.name}", _facts, plan, stage, replies) or []
-        found += attempt(f"probing {stage.name}", _probed, session, plan, stage) or []
+        found += attempt(f"probing {stage.name}", probed, stage) or []
     shown = attempt(f"asking {stage.name} small cases", _shown, session, plan, stage)
     message, example = shown or (check.message, check.counterexample)
     checks = list(verdict.checks)
@@ -119,22 +132,36 @@ def _facts(plan: Plan, stage: Stage, replies: Mapping[int, Reply]) -> list[str]:
     return facts(stage, answers)
 
 
-def _probed(session: Session, plan: Plan, stage: Stage) -> list[str]:
-    if stage.name not in {"residual", "jacobian", "information_matrix", "gauss_newton_step"}:
+def _probed(session: Session, plan: Plan, stage: Stage, *, residual_is_wrong: bool) -> list[str]:
+    """Ask a few more questions; of a function that remembers, or throws dice, nothing else is told."""
+    if stage.name not in {*EARLIER, STAGE}:
         return []
-    found = [probe.read(_values(session, plan, probe)) for probe in probes(stage.function)]
-    if stage.name == "jacobian":
-        of_jacobian, of_residual, read = derivative_probe()
-        found.append(read(_values(session, plan, of_jacobian), _values(session, plan, of_residual)))
+    memory = remembers(stage.function)
+    session.fresh()
+    first = _values(session, plan, stage.function, memory.rounds[0])
+    session.fresh()
+    kept = memory.read(first, _values(session, plan, stage.function, memory.rounds[1]))
+    if kept:
+        return [kept]
+    found = [probe.read(_values(session, plan, probe.function, probe.rounds[0])) for probe in probes(stage.function)]
+    if stage.name == "jacobian" and plan.has("residual"):
+        of_jacobian, of_residual, read = derivative_probe(
+            lambda *call: stage.expected(*call)[0], residual_is_wrong=residual_is_wrong
+        )
+        answers = [_values(session, plan, probe.function, probe.rounds[0]) for probe in (of_jacobian, of_residual)]
+        found.append(read(*answers))
     return [sentence for sentence in found if sentence]
 
 
-def _values(session: Session, plan: Plan, probe: Probe) -> Values:
-    stage = next(stage for stage, _ in plan.stages if stage.function == probe.function)
-    outputs = put(session, plan, stage, list(probe.calls))
+def _values(session: Session, plan: Plan, function: str, calls: Sequence[Case]) -> Values:
+    stage = next(stage for stage, _ in plan.stages if stage.function == function)
+    outputs = put(session, plan, stage, list(calls))
     if not isinstance(outputs, Outputs):
-        return [None] * len(probe.calls)
-    return [array_of(outputs, index) for index in range(len(probe.calls))]
+        return [None] * (len(calls) * stage.parts)
+    return [
+        array_of(outputs, place) if outputs.outcome[place // stage.parts] == Outcome.OK else None
+        for place in range(len(calls) * stage.parts)
+    ]
 
 
 def _got(task: Task, index: int, outputs: Outputs) -> tuple[np.ndarray, ...] | None:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .frames import MAX_DIMENSIONS, Kind
+from .policy import STUDENT_MODULE
 
 _NUMBERS = (int, float, bool, Fraction, Decimal, np.floating, np.integer, np.bool_)
 _CONTAINERS = (list, tuple)
@@ -119,5 +120,7 @@ def described(value: Any) -> str:
     if issubclass(kind, np.ndarray):
         return f"an array of shape {np.ndarray.shape.__get__(value)}"[:100]
     name = str(type.__dict__["__name__"].__get__(kind))[:60]
+    if type.__dict__["__dict__"].__get__(kind).get("__module__") == STUDENT_MODULE:
+        return f"an object of your class {name}"
     article = "an" if name[:1].lower() in "aeiou" else "a"
     return f"{article} {name}"

@@ -13,7 +13,7 @@ from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
 from autograder.stages.base import Answers, Array, Batch, Shape, Stage, aligned
 from autograder.stages.earlier import FUNCTIONS
-from autograder.stages.wording import number, vector
+from autograder.stages.wording import beside, number
 from reference_solution import slam1d
 
 BACKWARD_ERROR = 1e-7
@@ -119,8 +119,7 @@ class GaussNewtonStep(Stage):
         row = int(np.argmax(np.abs(left)))
         right = self.expected(*case)[0]
         return (
-            f"dx: got {vector(dx)}, expected {vector(right)} [m]; it leaves H dx + b = {number(left[row])} "
-            f"in row {row}, where it should be 0."
+            f"dx: {beside(dx, right)} [m]; it leaves H dx + b = {number(left[row])} in row {row}, where it should be 0."
         )
 
 

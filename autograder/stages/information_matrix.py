@@ -8,7 +8,7 @@ from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
 from autograder.stages.base import Array, ArrayStage
-from autograder.stages.wording import factor, number
+from autograder.stages.wording import beside, factor, number
 from reference_solution import slam1d
 
 
@@ -58,8 +58,8 @@ class InformationMatrix(ArrayStage):
             row = int(rows[0])
             variance = 1.0 / omega[row, row]
             return (
-                f"{factor(graph, row)} has variance {number(variance)} m^2: Omega[{row}, {row}] got "
-                f"{number(got[0][row, row])}, expected {number(omega[row, row])} [1/m^2]."
+                f"{factor(graph, row)} has variance {number(variance)} m^2: Omega[{row}, {row}] "
+                f"{beside(got[0][row, row], omega[row, row])} [1/m^2]."
             )
         i, j = (int(index) for index in np.argwhere(wrong)[0])
         return f"Omega[{i}, {j}] got {number(got[0][i, j])}, expected 0: the measurements are independent."

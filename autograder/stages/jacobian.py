@@ -8,7 +8,7 @@ from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
 from autograder.stages.base import Array, ArrayStage
-from autograder.stages.wording import factor, vector
+from autograder.stages.wording import beside, factor
 from reference_solution import slam1d
 
 
@@ -50,9 +50,9 @@ class Jacobian(ArrayStage):
         columns = np.flatnonzero(wrong.any(axis=0))
         if len(columns) == 1 and wrong.sum() > 1:
             c = int(columns[0])
-            return f"column {c} of J (pose {c}): got {vector(got[0][:, c])}, expected {vector(J[:, c])}."
+            return f"column {c} of J (pose {c}): {beside(got[0][:, c], J[:, c])}."
         row = int(np.argmax(wrong.any(axis=1)))
-        return f"{factor(graph, row)} of J: got {vector(got[0][row])}, expected {vector(J[row])}."
+        return f"{factor(graph, row)} of J: {beside(got[0][row], J[row])}."
 
 
 STAGE = Jacobian()

@@ -7,7 +7,7 @@ import numpy as np
 from autograder.problems.cases import Case
 from autograder.problems.ladders import MATRICES
 from autograder.stages.base import Array, ArrayStage, Shape
-from autograder.stages.wording import number, vector
+from autograder.stages.wording import beside
 from reference_solution import slam1d
 
 
@@ -50,8 +50,8 @@ class NormalEquations(ArrayStage):
             i, j = (int(index) for index in wrong[0])
             symmetric = np.abs(got[0] - got[0].T).max() <= allowed_H.max()
             remark = "" if symmetric else " H must be symmetric, and yours is not."
-            return f"H[{i}, {j}]: got {number(got[0][i, j])}, expected {number(H[i, j])}.{remark}"
-        return f"b: got {vector(got[1])}, expected {vector(b)}; H is right."
+            return f"H[{i}, {j}]: {beside(got[0][i, j], H[i, j])}.{remark}"
+        return f"b: {beside(got[1], b)}; H is right."
 
 
 STAGE = NormalEquations()

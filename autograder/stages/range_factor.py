@@ -8,7 +8,7 @@ from assignment.posegraph import Ranging
 from autograder.problems.cases import Case
 from autograder.problems.ladders import RANGINGS
 from autograder.stages.base import Array, ArrayStage, Stage
-from autograder.stages.wording import number, vector
+from autograder.stages.wording import beside
 from reference_solution import slam1d
 
 
@@ -42,7 +42,7 @@ class RangeResidual(ArrayStage):
         f = self.expected(*case)[0]
         row = int(np.argmax(~(np.abs(got[0].ravel() - f) <= self.tolerance(*case)[0])))
         pose = int(case[1].poses[row])
-        return f"row {row} (pose {pose}) of f: got {number(got[0].ravel()[row])}, expected {number(f[row])} [m]."
+        return f"row {row} (pose {pose}) of f: {beside(got[0].ravel()[row], f[row])} [m]."
 
 
 class RangeJacobian(RangeResidual):
@@ -63,7 +63,7 @@ class RangeJacobian(RangeResidual):
         J = self.expected(*case)[0]
         row = int(np.argmax((~(np.abs(got[0] - J) <= 1e-6)).any(axis=1)))
         pose = int(case[1].poses[row])
-        return f"row {row} (pose {pose}) of J: got {vector(got[0][row])}, expected {vector(J[row])}."
+        return f"row {row} (pose {pose}) of J: {beside(got[0][row], J[row])}."
 
 
 _DERIVATIVES = RangeJacobian()

@@ -8,7 +8,7 @@ from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
 from autograder.stages.base import Array, ArrayStage
-from autograder.stages.wording import factor, number
+from autograder.stages.wording import beside, factor
 from reference_solution import slam1d
 
 
@@ -46,7 +46,7 @@ class Residual(ArrayStage):
         x, graph = case
         f = self.expected(x, graph)[0]
         row = int(np.argmax(~(np.abs(got[0].ravel() - f) <= self.tolerance(x, graph)[0])))
-        return f"{factor(graph, row)} of f: got {number(got[0].ravel()[row])}, expected {number(f[row])} [m]."
+        return f"{factor(graph, row)} of f: {beside(got[0].ravel()[row], f[row])} [m]."
 
 
 STAGE = Residual()

@@ -35,6 +35,21 @@ def vector(values: np.ndarray) -> str:
     return "[" + " ".join(shown) + "]"
 
 
+def beside(got: np.ndarray | float, wanted: np.ndarray | float) -> str:
+    """Write what came beside what was expected; where they print alike, how far apart they are.
+
+    Examples
+    --------
+    >>> beside(2.0, 1.5)
+    'got 2, expected 1.5'
+    >>> beside(2000.0 + 1e-5, 2000.0)
+    'got 2000, expected 2000, which is 1e-05 away'
+    """
+    shown = [number(float(each)) if np.ndim(each) == 0 else vector(np.asarray(each)) for each in (got, wanted)]
+    gap = float(np.abs(np.asarray(got) - wanted).max(initial=0.0))
+    return f"got {shown[0]}, expected {shown[1]}" + (f", which is {gap:.2g} away" if shown[0] == shown[1] else "")
+
+
 def factor(graph: PoseGraph, row: int) -> str:
     """Name the factor that a row belongs to.
 
