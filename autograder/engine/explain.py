@@ -26,6 +26,7 @@ from autograder.problems.cases import Case
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs, Session
 from autograder.stages.base import Stage
+from autograder.stages.same import finite
 from autograder.verdicts import CheckVerdict, StageVerdict
 
 
@@ -76,6 +77,8 @@ def explain(
     residual_is_wrong = any(each.name == "residual" and each.status != "passed" for each in verdicts)
 
     def probed(stage: Stage) -> list[str]:
+        if not all(_usable(task, replies.get(task.batch)) for task in plan.tasks_of(stage)):
+            return []
         return _probed(session, plan, stage, residual_is_wrong=residual_is_wrong)
 
     return [
@@ -151,6 +154,17 @@ def _probed(session: Session, plan: Plan, stage: Stage, *, residual_is_wrong: bo
         answers = [_values(session, plan, probe.function, probe.rounds[0]) for probe in (of_jacobian, of_residual)]
         found.append(read(*answers))
     return [sentence for sentence in found if sentence]
+
+
+def _usable(task: Task, reply: Reply | None) -> bool:
+    """Whether every call of a check returned finite numbers in the right shape."""
+    outputs = None if reply is None else reply.outputs
+    return (
+        isinstance(outputs, Outputs)
+        and not outputs.outcome.any()
+        and outputs.shapes == task.stage.layout(task.prepared).shapes
+        and finite(outputs.data)
+    )
 
 
 def _values(session: Session, plan: Plan, function: str, calls: Sequence[Case]) -> Values:
