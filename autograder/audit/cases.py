@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import assignment
@@ -95,7 +95,5 @@ def _slip(stage: Stage, stages: Sequence[Stage], slip: Slip) -> Case:
         if other.function != stage.function and not (used_by_step and other.function == follow.STAGE)
     }
     wanted = Expected(stages={**spared, stage.name: (CAUGHT, slip.identifier, False)}, sentence=slip.name)
-    if slip.by_chance:
-        wanted = replace(wanted, by_chance=(stage.name,))
     text = submission_text(slip, stage.function)
     return Case("slip", slip.identifier, Source("module", [text], f"{slip.identifier}.py"), wanted, stage.name)

@@ -44,15 +44,12 @@ class Expected:
         Kinds of remarks.
     sentence : str
         For a reader.
-    by_chance : tuple of str
-        Stages whose slip is named by chance only: no name is right too, another one is not.
     """
 
     stages: dict[str, tuple[str, str, bool]] = field(default_factory=dict)
     others: str = ""
     remarks: tuple[str, ...] = ()
     sentence: str = ""
-    by_chance: tuple[str, ...] = ()
 
     def status(self, stage: str) -> str:
         """Return the expected status of a stage."""
@@ -141,8 +138,6 @@ def compare(wanted: Expected, verdicts: Sequence[StageVerdict], *, follow_throug
             if verdict.max_score == 0:
                 status, share = status.replace("partial", "failed"), False
             came = CAUGHT if status == CAUGHT and verdict.status in _CAUGHT else verdict.status
-            if verdict.name in wanted.by_chance and verdict.slip is None:
-                slip = ""
             got = _text(came, verdict.slip or "", followed)
             cells.append(Cell(verdict.name, _text(status, slip, share), got))
     if wanted.others:

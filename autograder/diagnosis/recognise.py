@@ -89,10 +89,14 @@ class Recogniser:
                 given[index] = self._given(answers, index)
             return _agree(self._output(slip, index), given[index], close)
 
-        for slip in slips(self.stage.name):
-            if all(agrees(slip, index) for index in self._first) and _all_agree(self._outputs(slip), answers, close):
+        known = slips(self.stage.name)
+        for slip in known:
+            if slip.pattern is not None or not all(agrees(slip, index) for index in self._first):
+                continue
+            if _all_agree(self._outputs(slip), answers, close):
                 return slip
-        return None
+        met = [(call, self._given(answers, index)) for index, call in enumerate(self.calls)]
+        return next((slip for slip in known if slip.pattern is not None and slip.pattern(met)), None)
 
     def _given(self, answers: Answers, index: int) -> tuple[Array, ...] | None:
         if answers.outcome[index] != 0:

@@ -41,6 +41,11 @@ class Answers(Protocol):
         """All numbers, one after the other."""
 
 
+Met = tuple[Case, tuple[Array, ...] | None]
+"""A call with the arrays that came; None where there were no numbers."""
+Pattern = Callable[[Sequence[Met]], bool]
+
+
 @dataclass(frozen=True)
 class Slip:
     """A known mistake: a wrong implementation of one stage, its name, and a hint that teaches.
@@ -59,9 +64,9 @@ class Slip:
         Identifiers of the same mistake in the literature that the course keeps.
     minimum_poses : int
         Smallest number of poses on which the mistake can be seen.
-    by_chance : bool
-        Whether its numbers are rounding noise, so that it is caught always and named only where
-        the student's arithmetic is the same to the last bit.
+    pattern : callable or None
+        Says of all calls with what came whether they show this mistake, where its numbers depend on a constant of
+        the student's or on rounding; None where the mistake answers as `function` does.
     remembers : bool
         Whether what it answers depends on the calls before; its memory is the function's `__dict__`.
     """
@@ -72,7 +77,7 @@ class Slip:
     function: Callable[..., Any]
     catalogue: str = ""
     minimum_poses: int = 2
-    by_chance: bool = False
+    pattern: Pattern | None = None
     remembers: bool = False
 
 

@@ -90,7 +90,7 @@ def faults(found: Audit) -> set[tuple[str, str]]:
     return {(cell.stage, cell.fault) for row in found.rows for cell in row.wrong}
 
 
-ROUNDED = ("residual_rounded_to_4_decimals", "step_rounded_to_4_decimals", "style_01_list_append.py")
+ROUNDED = ("residual_rounded", "step_rounded", "style_01_list_append.py")
 
 
 def test_a_few_cases_are_right_in_this_process() -> None:
@@ -126,9 +126,9 @@ def test_an_exam_of_nice_numbers_is_blunt(monkeypatch: pytest.MonkeyPatch) -> No
     """Without the rungs of real numbers and of a hundred poses, rounding is not seen, and the audit says it."""
     kept = tuple(rung for rung in Residual.ladder.rungs if rung.name not in ("real_valued", "many_poses"))
     course = Course(stages=("residual",))
-    assert not faults(audited("residual_rounded_to_4_decimals", course=course))
+    assert not faults(audited("residual_rounded", course=course))
     monkeypatch.setattr(Residual, "ladder", replace(Residual.ladder, rungs=kept))
-    assert faults(audited("residual_rounded_to_4_decimals", course=course)) == {("residual", "miss")}
+    assert faults(audited("residual_rounded", course=course)) == {("residual", "miss")}
 
 
 def test_a_check_without_a_reason_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,9 +22,9 @@ FUNCTION = {**{name: name for name in FUNCTIONS}, "second_step": "gauss_newton_s
 
 # These are close to the truth by nature: how far off they must be somewhere, relative to the largest entry.
 BY_NATURE = {
-    "residual_rounded_to_4_decimals": 1e-5,
-    "step_rounded_to_4_decimals": 1e-5,
-    "stops_at_four_decimals": 1e-5,
+    "residual_rounded": 1e-5,
+    "step_rounded": 1e-5,
+    "rounded_step_stops_short": 1e-5,
     "step_in_single_precision": 1e-8,
     "residual_in_single_precision": 1e-8,
     "information_in_single_precision": 1e-8,

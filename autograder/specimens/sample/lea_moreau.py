@@ -1,4 +1,4 @@
-# expect: gauss_newton_step=partial:step_rounded_to_4_decimals second_step=partial:stops_at_four_decimals others=passed; dx rounded to four decimals.
+# expect: gauss_newton_step=partial:step_rounded second_step=partial:rounded_step_stops_short others=passed; dx rounded to four decimals.
 import numpy as np
 
 

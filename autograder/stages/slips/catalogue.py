@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Callable
 from typing import TypeVar
 
-from autograder.stages.base import Slip
+from autograder.stages.base import Pattern, Slip
 
 Function = TypeVar("Function", bound=Callable[..., object])
 
@@ -39,7 +39,7 @@ class Catalogue:
         return tuple(self._entries)
 
     def __call__(
-        self, catalogue: str = "", *, minimum_poses: int = 2, by_chance: bool = False, remembers: bool = False
+        self, catalogue: str = "", *, minimum_poses: int = 2, pattern: Pattern | None = None, remembers: bool = False
     ) -> Callable[[Function], Function]:
         """Return a decorator that takes a function up and leaves it as it is.
 
@@ -52,8 +52,8 @@ class Catalogue:
             Smallest number of poses (columns of J in `normal_equations`) on which it can be seen.
         remembers : bool
             Whether what it answers depends on the calls before.
-        by_chance : bool
-            Whether its numbers are rounding noise.
+        pattern : callable or None
+            Recognises it where its numbers depend on a constant or on rounding.
         """
 
         def take_up(function: Function) -> Function:
@@ -66,7 +66,7 @@ class Catalogue:
                     function=function,
                     catalogue=catalogue,
                     minimum_poses=minimum_poses,
-                    by_chance=by_chance,
+                    pattern=pattern,
                     remembers=remembers,
                 )
             )

@@ -14,7 +14,15 @@ import numpy as np
 
 from autograder.stages.slips import narrow
 from autograder.stages.slips.catalogue import Catalogue
+from autograder.stages.slips.patterns import rounded
+from autograder.stages.slips.step_patterns import (
+    damped,
+    held_by_a_number,
+    of_single_precision,
+    step_sizes,
+)
 from autograder.stages.slips.steps_without_equations import WITHOUT_EQUATIONS
+from autograder.stages.slips.steps_without_priors import WITHOUT_PRIORS
 from reference_solution import slam1d as right
 
 if TYPE_CHECKING:
@@ -48,34 +56,6 @@ def prior_missing_in_b(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     f[len(graph.edges) :] = 0.0
     H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), f)
     return np.linalg.solve(H, -b)
-
-
-@slip("S17, H17")
-def prior_left_out_shortest_step(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The prior is left out, and of all steps that fit the edges the shortest is taken.
-
-    Measured differences cannot say where the whole chain stands. Which factor can? A pseudo-inverse hides the question.
-    """
-    k = len(graph.edges)
-    J, omega, f = right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph)
-    H, b = right.normal_equations(J[:k], omega[:k, :k], f[:k])
-    step: np.ndarray = np.linalg.pinv(H, rcond=1e-10) @ -b
-    return step
-
-
-@slip("S18, H17", by_chance=True)
-def prior_left_out_singular(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The prior is left out, and a singular H is solved all the same.
-
-    A solver need not complain: rounding can make H just invertible, and the chain lands anywhere. What should hold it?
-    """
-    k = len(graph.edges)
-    J, omega, f = right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph)
-    H, b = right.normal_equations(J[:k], omega[:k, :k], f[:k])
-    try:
-        return np.linalg.solve(H, -b)
-    except np.linalg.LinAlgError:  # only where the elimination meets an exact 0
-        return np.zeros(graph.n_poses)
 
 
 @slip("H18")
@@ -116,7 +96,18 @@ def step_twice_as_long(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return 2.0 * right.gauss_newton_step(x, graph)
 
 
-@slip("S5")
+@slip(pattern=held_by_a_number)
+def number_added_to_first_entry_of_h(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """A number is added to the first entry of H, beside the priors.
+
+    It holds pose 0 where it starts, as if that were believed; H has all that the priors say without it.
+    """
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph))
+    H[0, 0] += 1000.0
+    return np.linalg.solve(H, -b)
+
+
+@slip("S5", pattern=damped)
 def step_damped(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """A small number is added to the diagonal of H before solving.
 
@@ -138,20 +129,11 @@ def h_inverted_entry_by_entry(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return step
 
 
-@slip("S9")
-def step_rounded_to_2_decimals(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The step is rounded to two decimals.
+@slip("S9, S10", pattern=rounded(right.gauss_newton_step, step_sizes))
+def step_rounded(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step is rounded.
 
-    Round what you print, never what you go on calculating with.
-    """
-    return right.gauss_newton_step(x, graph).round(2)
-
-
-@slip("S10")
-def step_rounded_to_4_decimals(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The step is rounded to four decimals.
-
-    Four decimals look like enough on paper; the next step starts where this one ends and sees what is missing.
+    A few decimals look like enough on paper; the next step starts where this one ends and sees what is missing.
     """
     return right.gauss_newton_step(x, graph).round(4)
 
@@ -223,7 +205,7 @@ def loops_left_out(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return step
 
 
-@slip("S24")
+@slip("S24", pattern=of_single_precision)
 def step_in_single_precision(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The whole step is worked out in single precision.
 
@@ -262,4 +244,4 @@ def odometry_taken_from_state(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return np.linalg.solve(H, -b)
 
 
-SLIPS = (*slip.entries, *WITHOUT_EQUATIONS, *narrow.STEP)
+SLIPS = (*slip.entries, *WITHOUT_PRIORS, *WITHOUT_EQUATIONS, *narrow.STEP)

@@ -12,6 +12,7 @@ import numpy as np
 
 from autograder.stages.slips import narrow
 from autograder.stages.slips.catalogue import Catalogue
+from autograder.stages.slips.patterns import rounded, single_precision, weight_sizes
 from reference_solution import slam1d as right
 
 if TYPE_CHECKING:
@@ -253,7 +254,16 @@ def information_with_a_row_for_every_pose(graph: PoseGraph) -> np.ndarray:
     return right.information_matrix(graph)[: graph.n_poses, : graph.n_poses]
 
 
-@slip("S24")
+@slip(pattern=rounded(right.information_matrix, weight_sizes))
+def information_rounded(graph: PoseGraph) -> np.ndarray:
+    """The weights are rounded.
+
+    Round what you print, never what you go on calculating with: a small weight loses most.
+    """
+    return np.round(right.information_matrix(graph), 2)
+
+
+@slip("S24", pattern=single_precision(right.information_matrix, weight_sizes, terms=4))
 def information_in_single_precision(graph: PoseGraph) -> np.ndarray:
     """The weights are worked out in single precision.
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from autograder.stages.slips import narrow
 from autograder.stages.slips.catalogue import Catalogue
+from autograder.stages.slips.patterns import small_difference
 from reference_solution import slam1d as right
 
 if TYPE_CHECKING:
@@ -281,7 +282,7 @@ def jacobian_is_the_adjacency_matrix(x: np.ndarray, graph: PoseGraph) -> np.ndar
     return A
 
 
-@slip("J11")
+@slip("J11", pattern=small_difference)
 def difference_step_too_small(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """J is a finite difference with a step so small that rounding drowns it.
 

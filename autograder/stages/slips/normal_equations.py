@@ -10,6 +10,7 @@ import numpy as np
 
 from autograder.stages.slips import narrow
 from autograder.stages.slips.catalogue import Catalogue
+from autograder.stages.slips.patterns import product_sizes, regularised, rounded, single_precision
 from reference_solution import slam1d as right
 
 Pair = tuple[np.ndarray, np.ndarray]
@@ -251,7 +252,7 @@ def last_row_left_out(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     return right.normal_equations(J[:-1], omega[:-1, :-1], f[:-1])
 
 
-@slip(minimum_poses=1)
+@slip(minimum_poses=1, pattern=regularised)
 def h_regularised(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """A small number is added to the diagonal of H.
 
@@ -261,9 +262,9 @@ def h_regularised(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     return H + 1e-3 * np.eye(len(H)), b
 
 
-@slip(minimum_poses=1)
+@slip(minimum_poses=1, pattern=rounded(right.normal_equations, product_sizes))
 def normal_equations_rounded(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
-    """H and b are rounded to four decimals.
+    """The numbers of H or b are rounded.
 
     Round what you print, never what you go on calculating with.
     """
@@ -271,7 +272,7 @@ def normal_equations_rounded(J: np.ndarray, omega: np.ndarray, f: np.ndarray) ->
     return np.round(H, 4), np.round(b, 4)
 
 
-@slip("S24", minimum_poses=1)
+@slip("S24", minimum_poses=1, pattern=single_precision(right.normal_equations, product_sizes, terms=64))
 def normal_equations_in_single_precision(J: np.ndarray, omega: np.ndarray, f: np.ndarray) -> Pair:
     """H and b are worked out in single precision.
 

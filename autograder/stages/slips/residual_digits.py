@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from autograder.stages.slips.catalogue import Catalogue
+from autograder.stages.slips.patterns import residual_sizes, rounded, single_precision
 from reference_solution import slam1d as right
 
 if TYPE_CHECKING:
@@ -16,20 +17,11 @@ if TYPE_CHECKING:
 slip = Catalogue()
 
 
-@slip("R14")
-def residual_rounded_to_1_decimal(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The residual is rounded to one decimal.
+@slip("R14, R15", pattern=rounded(right.residual, residual_sizes))
+def residual_rounded(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The residual is rounded.
 
-    Round what you print, never what you go on calculating with.
-    """
-    return np.round(right.residual(x, graph), 1)
-
-
-@slip("R15")
-def residual_rounded_to_4_decimals(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The residual is rounded to four decimals.
-
-    Four decimals look like enough on paper; a computer keeps sixteen, and the steps that follow need them.
+    A few decimals look like enough on paper; a computer keeps sixteen, and the steps that follow need them.
     """
     return np.round(right.residual(x, graph), 4)
 
@@ -43,7 +35,7 @@ def residual_in_whole_numbers(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return right.residual(x, graph).astype(int)
 
 
-@slip("S24")
+@slip("S24", pattern=single_precision(right.residual, residual_sizes, terms=4))
 def residual_in_single_precision(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The residual is worked out in single precision.
 

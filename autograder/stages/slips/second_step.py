@@ -13,6 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from autograder.stages.slips.catalogue import Catalogue
+from autograder.stages.slips.patterns import rounded
+from autograder.stages.slips.step_patterns import (
+    damped,
+    held_by_a_number,
+    of_single_precision,
+    priors_replaced_by_pose_0_held,
+    step_sizes,
+)
 from reference_solution import slam1d as right
 
 if TYPE_CHECKING:
@@ -87,7 +95,7 @@ def walks_away_from_the_minimum(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return -right.gauss_newton_step(x, graph)
 
 
-@slip("S5")
+@slip("S5", pattern=damped)
 def damping_leaves_a_rest(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """A small number on the diagonal of H keeps the step from arriving.
 
@@ -146,18 +154,9 @@ def the_same_step_everywhere(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return np.linalg.solve(H, -b)
 
 
-@slip("S9")
-def stops_at_two_decimals(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The step is rounded to two decimals and stops beside the minimum.
-
-    Two starts then end at two points. Round what you print, never what you go on calculating with.
-    """
-    return right.gauss_newton_step(x, graph).round(2)
-
-
-@slip("S10")
-def stops_at_four_decimals(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
-    """The step is rounded to four decimals and stops beside the minimum.
+@slip("S9, S10", pattern=rounded(right.gauss_newton_step, step_sizes))
+def rounded_step_stops_short(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The step is rounded and stops beside the minimum.
 
     The rest that the second step finds is no floating point noise: that has sixteen decimals.
     """
@@ -196,6 +195,33 @@ def held_pose_keeps_its_start(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     J, f = right.jacobian(x, graph), right.residual(x, graph)
     H, b = right.normal_equations(J, right.information_matrix(graph), f)
     return np.concatenate([[0.0], np.linalg.solve(H[1:, 1:], -b[1:])])
+
+
+@slip(pattern=priors_replaced_by_pose_0_held)
+def number_in_h_holds_pose_0(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The priors are left out, and pose 0 stays where it starts, by a number in H or by a row taken out.
+
+    From another start the chain ends elsewhere. Who says where it stands, and by what is it said in H and in b?
+    """
+    k = len(graph.edges)
+    J, omega, f = right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph)
+    H, b = right.normal_equations(J[:k], omega[:k, :k], f[:k])
+    H[0, 0] += 1.0
+    try:
+        return np.linalg.solve(H, -b)
+    except np.linalg.LinAlgError:  # a graph in several parts needs more than one entry
+        return np.zeros(graph.n_poses)
+
+
+@slip(pattern=held_by_a_number)
+def first_entry_of_h_leaves_a_rest(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """A number is added to the first entry of H, so that pose 0 does not come all the way.
+
+    What does that number say about pose 0 that no factor of the graph says? Compare with the rows of f.
+    """
+    H, b = right.normal_equations(right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph))
+    H[0, 0] += 1000.0
+    return np.linalg.solve(H, -b)
 
 
 @slip("H16")
@@ -237,7 +263,7 @@ def loop_has_no_effect(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return step
 
 
-@slip("S24")
+@slip("S24", pattern=of_single_precision)
 def single_precision_leaves_a_rest(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The whole step is worked out in single precision, and the second step finds what was lost.
 
