@@ -40,7 +40,6 @@ _STATUS_OF_OUTCOME: dict[Outcome, StageStatus] = {
     Outcome.BAD_VALUE: "failed",
     Outcome.OK: "failed",
 }
-_AGAIN = "asked again, on other graphs and with right functions in the place of yours"
 _INTERCHANGEABLE = ("residual", "jacobian", "information_matrix")  # stages that a common convention keeps whole
 
 
@@ -80,20 +79,27 @@ class Judge:
         if not wrong or status == "passed":
             return _verdict(stage, points, checks, status, lead=said)
         apart = [collected.apart.get((stage.name, task.rung.name)) for task in tasks]
-        first = f"Mend {' and '.join(wrong)} first, which the step builds on"
-        checks = [self._by_itself(check, found, first) for check, found in zip(checks, apart, strict=True)]
-        unpaid = [found for check, found in zip(checks, apart, strict=True) if not check.points]
-        still = f"; {_AGAIN}, it is still wrong" if any(each and each.failure is None for each in unpaid) else ""
-        return _verdict(
-            stage, points, checks, status, lead=" ".join(filter(None, [said, f"{first}{still}." if unpaid else ""]))
-        )
+        checks = [self._by_itself(check, found) for check, found in zip(checks, apart, strict=True)]
+        lead = self._mend(wrong, checks, apart)
+        return _verdict(stage, points, checks, status, lead=f"{said} {lead}".strip())
 
-    def _by_itself(self, check: CheckVerdict, apart: Reply | None, first: str) -> CheckVerdict:
+    def _mend(self, wrong: Sequence[str], checks: Sequence[CheckVerdict], apart: Sequence[Reply | None]) -> str:
+        """Say what to mend first, and what asking the step by itself has shown."""
+        first = f"Mend {' and '.join(wrong)} first, which the step builds on."
+        again = "it was asked again, on other graphs and with right functions in the place of yours."
+        if any(found is not None and found.failure is None and not found.passed for found in apart):
+            return f"{first} The step is wrong by itself, too: {again}"
+        if self.plan.follow_through > 0 and all(check.points for check in checks):
+            share = self.plan.follow_through
+            return f"{first} The step keeps {'its' if share == 1 else f'{100 * share:g} % of its'} points: {again}"
+        return first
+
+    def _by_itself(self, check: CheckVerdict, apart: Reply | None) -> CheckVerdict:
         """Pay the follow-through share for a check that is right by itself."""
         if check.passed or apart is None or not apart.passed:
             return check
         earned = round(check.max_points * self.plan.follow_through, 6)
-        return replace(check, points=earned, message=f"{first}: {_AGAIN}, it is right by itself. {check.message}")
+        return replace(check, points=earned, message=f"Right by itself; with your own functions: {check.message}")
 
     def _convention(self, collected: Collected) -> Convention | None:
         """Find one convention that explains f, J and Omega of every case, where one of them is not as expected."""

@@ -49,7 +49,10 @@ def test_a_wrong_function_costs_its_own_stage(grade_source, name):
     for step in STEPS:
         if verdicts[step].status != "passed":
             assert verdicts[step].status == "partial"
-            assert verdicts[step].message.startswith(f"Mend {name} first, which the step builds on: asked again")
+            assert verdicts[step].message.startswith(
+                f"Mend {name} first, which the step builds on. The step keeps its points: it was asked again"
+            )
+            assert "Right by itself; with your own functions: " in verdicts[step].message
 
 
 def test_all_earlier_functions_may_be_wrong_or_missing(grade_source):
