@@ -18,6 +18,7 @@ _FAMILIES = re.compile(
     r"gbk|gb2312|gb18030|big5|big5hkscs|euc-?(?:jp|kr|cn)|shift-?jis|sjis|johab|hz"
 )
 _UTF8 = re.compile(r"utf-?8(?:-(?:sig|unix|dos|mac))?|u8")
+_UTF16 = "text in UTF-16; save it as UTF-8"
 _SIGNATURES = (
     (b"PK\x03\x04", "a zip archive; give it a name that ends in .zip"),
     (b"%PDF", "a PDF document; hand in the .py or .ipynb file itself"),
@@ -26,8 +27,8 @@ _SIGNATURES = (
     (b"7z\xbc\xaf", "a 7z archive; pack it as .zip"),
     (b"{\\rtf", "a rich text document; save it as plain text"),
     (b"\x7fELF", "a program; hand in its source text"),
-    (codecs.BOM_UTF16_LE, "text in UTF-16; save it as UTF-8"),
-    (codecs.BOM_UTF16_BE, "text in UTF-16; save it as UTF-8"),
+    (codecs.BOM_UTF16_LE, _UTF16),
+    (codecs.BOM_UTF16_BE, _UTF16),
 )
 
 
@@ -83,6 +84,8 @@ def reject_foreign(data: bytes) -> None:
     for signature, words in _SIGNATURES:
         if data.startswith(signature):
             raise RejectedUpload(f"is {words}")
+    if data[:4].count(0) == 2 and b"\0\0" in (data[0:4:2], data[1:4:2]):  # without a mark; every other byte is 0
+        raise RejectedUpload(f"is {_UTF16}")
 
 
 def one_newline(text: str) -> str:

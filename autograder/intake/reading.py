@@ -8,14 +8,12 @@ from dataclasses import dataclass, field, replace
 
 from autograder.errors import RejectedUpload
 from autograder.intake.archive import MAX_ARCHIVE, archive_tree
-from autograder.intake.module import MAX_SOURCE, read_module
+from autograder.intake.module import read_module
 from autograder.intake.naming import printable
 from autograder.intake.notebook import MAX_NOTEBOOK, looks_like_notebook, read_notebook
 from autograder.intake.tree import Entry
 from autograder.intake.upload import choose
 from autograder.sandbox.frames import Source
-
-_LIMITS = {".py": MAX_NOTEBOOK, ".ipynb": MAX_NOTEBOOK, ".zip": MAX_ARCHIVE}  # a .py may turn out to be a notebook
 
 
 @dataclass(frozen=True)
@@ -33,7 +31,9 @@ def read_entry(entry: Entry) -> Content:
     """Read an upload; raises RejectedUpload with the end of a sentence ("is ...", "holds ...")."""
     if entry.problem:
         raise RejectedUpload(entry.problem)
-    data = entry.load(_LIMITS.get(entry.suffix, MAX_SOURCE))
+    data = entry.load(
+        MAX_ARCHIVE if entry.suffix == ".zip" else MAX_NOTEBOOK
+    )  # whatever its name, it may be a notebook
     if entry.suffix == ".zip":
         return _read_archive(data)
     if entry.suffix == ".ipynb":

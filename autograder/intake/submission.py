@@ -9,11 +9,12 @@ from pathlib import Path
 from autograder.errors import RejectedUpload, UsageError
 from autograder.intake.archive import class_archive_tree
 from autograder.intake.folder import file_entry, folder_tree
+from autograder.intake.inside import problem_inside
 from autograder.intake.layouts import detect, named
 from autograder.intake.naming import distinct_names, printable
 from autograder.intake.reading import digest, read_entry
 from autograder.intake.tree import PROVIDED_FILES, Tree, is_candidate
-from autograder.intake.upload import Upload, wrong_kind_problem
+from autograder.intake.upload import Upload
 from autograder.sandbox.frames import Source
 
 _TRY = "give .py, .ipynb or .zip files, a folder of them, or a folder that holds one folder a student"
@@ -139,7 +140,7 @@ def _gather(path: Path, layout: str | None) -> list[_Found]:
     problem = entry.problem
     if not problem and not is_candidate(entry):
         provided = entry.name.casefold() in PROVIDED_FILES
-        problem = "is a file that was handed out, not a submission" if provided else wrong_kind_problem(entry)
+        problem = "is a file that was handed out, not a submission" if provided else problem_inside(entry)
     folder = path.parent.name or path.resolve().parent.name
     return [_Found(Upload(name=entry.stem, entry=entry, problem=problem, folder=folder), "file", shown)]
 

@@ -7,7 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 SUBMISSION_SUFFIXES = (".py", ".ipynb", ".zip")
+EXPECTED = "expected one .py, .ipynb or .zip file"
 PROVIDED_FILES = frozenset({"posegraph.py", "self_check.py"})  # handed out with the homework, never handed in
+HANDED_OUT = PROVIDED_FILES | {"readme.md", "handout.html"}  # what lies in the folder that a student receives
 NOISE = frozenset({"__pycache__", "__macosx", "thumbs.db", "desktop.ini"})
 
 Loader = Callable[[int], bytes]

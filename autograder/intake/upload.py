@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from autograder.errors import RejectedUpload
+from autograder.intake.inside import is_read
 from autograder.intake.naming import printable
-from autograder.intake.tree import PROVIDED_FILES, Entry, is_candidate
+from autograder.intake.tree import EXPECTED, PROVIDED_FILES, Entry, is_candidate
 
-EXPECTED = "expected one .py, .ipynb or .zip file"
 HOMEWORK = "slam1d"  # the name under which the homework is handed out
 CORE = {b"residual", b"jacobian", b"information_matrix", b"normal_equations", b"gauss_newton_step"}
 _OPEN = re.compile(rb"\b(\w{1,40}) is not finished yet: replace this line")  # what a stub raises, as handed out
@@ -18,7 +18,6 @@ _DEFINED = re.compile(rb"(?:\\n|\b)def[ \t]+(\w{1,40})[ \t]*\(")
 _EXPLORE, _OF_EXPLORE = "explore", {b"residual", b"jacobian"}  # the notebook to play with defines these itself
 _LARGEST = 20 << 20  # bytes: a notebook with its outputs
 _COMPANIONS = re.compile(r"(__init__|conftest|setup|noxfile|test_.*|.*_test)\.py", re.IGNORECASE)
-_WRONG_KINDS = re.compile(r".*(\.(rar|7z|tar|tgz|gz|bz2|xz|pyw|pyc)|\.(py|ipynb)\.(txt|json|html))", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ def choose(entries: Sequence[Entry]) -> tuple[Entry | None, str, tuple[str, ...]
     What was begun counts: a file that defines a function of the homework, and not only as it was handed out. Two that
     were begun are for a human; where none was, the one that has the name of the homework is taken.
     """
-    candidates = [entry for entry in entries if is_candidate(entry)]
+    candidates = [entry for entry in entries if is_candidate(entry)] or [e for e in entries if is_read(e)]
     if len(candidates) > 1:
         candidates = without_companions(candidates)
     if len(candidates) == 1:
@@ -112,22 +111,6 @@ def _functions(entry: Entry) -> tuple[set[bytes], set[bytes]]:
 def without_companions(entries: Sequence[Entry]) -> list[Entry]:
     """Leave out files that go with Python code (setup.py, tests, __init__.py), unless nothing is left."""
     return [entry for entry in entries if not _COMPANIONS.fullmatch(entry.name)] or list(entries)
-
-
-def is_wrong_kind(entry: Entry) -> bool:
-    """Say whether a file was clearly meant as a submission but has a kind that is not read (a .rar, a .py.txt).
-
-    Examples
-    --------
-    >>> [is_wrong_kind(Entry((name,), name)) for name in ("a.rar", "a.py.txt", "a.tar.gz", "notes.txt", "a.py")]
-    [True, True, True, False, False]
-    """
-    return _WRONG_KINDS.fullmatch(entry.name) is not None
-
-
-def wrong_kind_problem(entry: Entry) -> str:
-    """Say what came and what was expected, as the end of a sentence."""
-    return f"is a {entry.suffix or 'file without a suffix'}, {EXPECTED}; save or pack it as one of these"
 
 
 def strays(entries: Iterable[Entry]) -> list[Upload]:

@@ -60,7 +60,7 @@ def test_the_digest_is_of_what_is_executed(tmp_path: Path) -> None:
 def test_what_tools_leave_behind_and_what_was_handed_out_is_ignored(tmp_path: Path) -> None:
     """Caches, checkpoints, hidden files and the provided files are no submissions."""
     noise = ["__pycache__/x.py", ".ipynb_checkpoints/x.ipynb", "__MACOSX/x.py", ".x.py", "._x.py", ".git/x.py"]
-    provided = ["posegraph.py", "self_check.py", "sub/PoseGraph.py", "README.md", "data.csv", "venv/lib/x.py"]
+    provided = ["posegraph.py", "self_check.py", "sub/PoseGraph.py", "README.md", "venv/lib/x.py"]
     write(tmp_path, dict.fromkeys([*noise, *provided, "alice.py", "venv/pyvenv.cfg", ".DS_Store"], CODE))
     assert list(by_id(tmp_path)) == ["alice"]
 
@@ -96,9 +96,8 @@ def test_a_bad_upload_stops_nobody_else(tmp_path: Path) -> None:
         "old": "old.ipynb is a notebook without cells; check that you handed in the file you worked in.",
         "none": "none.ipynb is a notebook without cells; check that you handed in the file you worked in.",
         "text": "text.ipynb is no notebook (not JSON); a Python file needs a name that ends in .py.",
-        "packed": "packed.rar is a .rar, expected one .py, .ipynb or .zip file; save or pack it as one of these.",
-        "renamed.py": "renamed.py.txt is a .txt, expected one .py, .ipynb or .zip file; "
-        "save or pack it as one of these.",
+        "packed": "packed.rar is a RAR archive; pack it as .zip.",
+        "renamed": "",
     }
     assert found["empty"].notes == ("The file is empty.",)
 
@@ -220,11 +219,47 @@ def test_a_missing_path_beside_others_is_a_rejected_submission(tmp_path: Path) -
 
 def test_a_file_of_another_kind_says_what_is_expected(tmp_path: Path) -> None:
     """Handed-out files and documents are no submissions, also when named one by one."""
-    write(tmp_path, {"posegraph.py": CODE, "report.pdf": "%PDF", "noext": CODE})
-    found = by_id(tmp_path / "posegraph.py", tmp_path / "report.pdf", tmp_path / "noext")
+    write(tmp_path, {"posegraph.py": CODE, "report.pdf": "%PDF", "noext": "x = 1", "notes.docx": "PK\3\4"})
+    found = by_id(*(tmp_path / name for name in ("posegraph.py", "report.pdf", "noext", "notes.docx")))
     assert found["posegraph"].rejection == "posegraph.py is a file that was handed out, not a submission."
-    assert found["report"].rejection.startswith("report.pdf is a .pdf, expected one .py, .ipynb or .zip file")
+    assert found["report"].rejection.startswith("report.pdf is a PDF document; hand in the .py or .ipynb file")
     assert found["noext"].rejection.startswith("noext is a file without a suffix, expected")
+
+
+@pytest.mark.parametrize("name", ["ada", "ada.txt", "ada.py.txt", "ada.json", "ada.ipynb.txt", "Ada (1).PYW"])
+@pytest.mark.parametrize("beside", [True, False])
+def test_modules_and_notebooks_are_read_under_any_name(tmp_path: Path, name: str, beside: bool) -> None:
+    """What is inside decides, for a file that is named, one in a folder of files and one in a student's folder."""
+    for text in (CODE, notebook(cell())):
+        write(tmp_path, {f"class/{name}": text, f"folders/ada/{name}": text, "folders/bob/slam1d.py": CODE})
+        if beside:
+            write(tmp_path, {"class/zoe.py": CODE})
+        found = [*by_id(tmp_path / "class").values(), *by_id(tmp_path / "folders", layout="folder_a_student").values()]
+        assert [each.rejection for each in found] == [""] * (4 if beside else 3)
+        assert [each.rejection for each in by_id(tmp_path / "class" / name).values()] == [""]
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "words"),
+    [
+        ("a.pdf", b"%PDF-1.4", "is a PDF document"),
+        ("a.html", b"<html><pre>" + CODE.encode(), "is a web page"),
+        ("a.md", b"# Mine\n```python\n" + CODE.encode() + b"```\n", "is a .md, expected one"),
+        ("a", b"shall I compare thee", "is a file without a suffix, expected one"),
+        ("a.txt", b"", "is empty"),
+        ("a.txt", CODE.encode("utf-16"), "is text in UTF-16"),
+        ("a.ipynb", CODE.encode("utf-16-le"), "is text in UTF-16"),
+        ("a.dat", CODE.encode("utf-16-be"), "is text in UTF-16"),
+        ("a.pyc", b"\x00\x01\x02", "is a binary file"),
+        ("a.json", b'{"a": 1}', "is a .json, expected one"),
+    ],
+)
+def test_what_is_neither_notebook_nor_module_has_its_row(tmp_path: Path, name: str, data: bytes, words: str) -> None:
+    """Nothing that lies in a folder of files is dropped without a word."""
+    write(tmp_path, {name: data, "zoe.py": CODE})
+    found = by_id(tmp_path)
+    assert sorted(found) == ["a", "zoe"]
+    assert found["a"].rejection.startswith(f"{name} {words}")
 
 
 def test_two_files_with_the_same_stem_get_distinct_names(tmp_path: Path) -> None:

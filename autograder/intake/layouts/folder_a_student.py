@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from itertools import groupby
 
+from autograder.intake.inside import problem_inside
 from autograder.intake.layouts import GENERIC
-from autograder.intake.tree import Entry, Tree, is_candidate, is_noise
+from autograder.intake.tree import HANDED_OUT, Entry, Tree, is_candidate, is_noise
 from autograder.intake.upload import Upload, choose, stands_alone
 
 TITLE = "a folder a student"
@@ -27,6 +28,8 @@ def gather(tree: Tree) -> list[Upload]:
     """
     at_top = _at_top(tree)
     uploads = [Upload(name=entry.stem, entry=entry, folder=tree.name) for entry in at_top]
+    if at_top:
+        uploads += [Upload(entry.stem, entry, problem_inside(entry), tree.name) for entry in _foreign(tree)]
     for student, entries in by_folder(tree).items():
         entry, problem, notes = choose(entries)
         if len(entries) == 1 and len(entries[0].parts) == 1:
@@ -39,6 +42,17 @@ def gather(tree: Tree) -> list[Upload]:
 
 def _at_top(tree: Tree) -> list[Entry]:
     return [entry for entry in tree.entries if len(entry.parts) == 1 and is_candidate(entry)]
+
+
+def _foreign(tree: Tree) -> list[Entry]:
+    """Find the other files at the top; what is inside says whether they are read."""
+    return [
+        entry
+        for entry in tree.entries
+        if len(entry.parts) == 1
+        and not (is_candidate(entry) or entry.problem or entry.closed_folder)
+        and entry.name.casefold() not in HANDED_OUT
+    ]
 
 
 def by_folder(tree: Tree) -> dict[str, list[Entry]]:

@@ -11,7 +11,7 @@ from autograder.intake import layouts as package
 from autograder.intake.layouts import detect, layouts, named
 from autograder.intake.submission import Submission, collect
 from autograder.intake.tree import Tree
-from tests.intake.making import CODE, archive, write
+from tests.intake.making import CODE, archive, cell, notebook, write
 
 
 def by_id(path: Path, layout: str | None = None) -> dict[str, Submission]:
@@ -109,10 +109,12 @@ def test_a_plain_folder_names_submissions_by_their_stem(tmp_path: Path) -> None:
 def test_files_and_folders_of_students_may_stand_side_by_side(tmp_path: Path) -> None:
     """A folder with one submission in it names it; a folder of something else is nobody's."""
     write(tmp_path, {"alice.py": CODE, "bob.ipynb": "", "carol/hw.py": CODE, "figures/x.png": "", "dave/x.py": CODE})
+    write(tmp_path, {"erin.json": notebook(cell()), "frank.pdf": "%PDF"})
     found = by_id(tmp_path)
-    assert list(found) == ["alice", "bob", "carol", "dave"]
+    assert [name for name, each in found.items() if not each.rejection] == ["alice", "carol", "dave", "erin"]
+    assert list(found) == ["alice", "bob", "carol", "dave", "erin", "frank"]
     assert layouts_of(found) == {"folder_a_student"}
-    assert list(by_id(tmp_path, "plain")) == ["alice", "bob", "hw", "x"]
+    assert list(by_id(tmp_path, "plain")) == ["alice", "bob", "erin", "frank", "hw", "x"]
 
 
 def test_folders_given_one_by_one_name_their_submission(tmp_path: Path) -> None:
