@@ -10,7 +10,7 @@ import textwrap
 
 from autograder.reports.counterexample import counterexample_text
 from autograder.reports.feedback import Policy, shown_notes
-from autograder.reports.wording import MARKS, points, visible
+from autograder.reports.wording import outcome, points, visible
 from autograder.verdicts import CheckVerdict, Result, StageVerdict
 
 WIDTH = 100
@@ -91,7 +91,7 @@ def case_text(check: CheckVerdict) -> str:
 
 def _heading(stage: StageVerdict, policy: Policy) -> str:
     line = f"{stage.name}: {points(stage.score)} of {points(stage.max_score)}"
-    said = MARKS[stage.status][1]
+    said = outcome(stage)
     return f"{line}, {said}" if policy != "score" and stage.status != "passed" else line
 
 

@@ -20,7 +20,7 @@ from jinja2.bccache import Bucket
 from markupsafe import Markup
 
 from autograder.reports import charts
-from autograder.reports.wording import MARKS, number, plural, points, visible
+from autograder.reports.wording import number, outcome, plural, points, visible
 
 _TEMPLATES = "reports/templates"
 
@@ -67,7 +67,7 @@ def _environment() -> Environment:
         script=_asset("table.js"),
         desk_script=_asset("desk.js"),
         script_hash=hash_of("table.js"),
-        marks=MARKS,
+        outcome=outcome,
         bar=charts.bar,
     )
     return environment

@@ -6,6 +6,8 @@ import math
 import unicodedata
 from typing import Any
 
+from autograder.verdicts import StageVerdict
+
 # Shape, not only colour, tells the states apart; the words are the legend. `passed` needs no mark.
 MARKS = {
     "passed": ("", "full points"),
@@ -18,6 +20,21 @@ MARKS = {
     "forbidden": ("F", "import not allowed"),
     "awaiting_mark": ("?", "waits for a reader"),
 }
+
+
+def outcome(stage: StageVerdict) -> str:
+    """Say in two or three words what became of a stage; a step that is right by itself is not partly right.
+
+    Examples
+    --------
+    >>> outcome(StageVerdict(name="second_step", status="partial", score=6.0, max_score=10.0))
+    'partly right'
+    >>> outcome(StageVerdict(name="second_step", status="partial", score=10.0, max_score=10.0))
+    'right by itself'
+    """
+    if stage.status == "partial" and stage.score >= stage.max_score > 0:
+        return "right by itself"
+    return MARKS[stage.status][1]
 
 
 def points(value: float) -> str:

@@ -13,7 +13,7 @@ import msgspec
 
 from autograder.exports.words import case_text, general, total
 from autograder.reports.feedback import Policy, shown_notes
-from autograder.reports.wording import MARKS, visible
+from autograder.reports.wording import outcome, visible
 from autograder.verdicts import CheckVerdict, Result, StageVerdict
 
 Visibility = Literal["visible", "after_due_date", "after_published"]
@@ -129,7 +129,7 @@ def _output(stage: StageVerdict, check: CheckVerdict, policy: Policy, first: boo
         return ""
     said = stage.message if first and stage.message else check.message
     if policy == "hint" or not said:
-        said = MARKS[stage.status][1].capitalize() + "."
+        said = outcome(stage).capitalize() + "."
     lines = [visible(said, 2000)]
     if first and stage.hint:
         lines.append(f"Hint: {visible(stage.hint, 2000)}")
