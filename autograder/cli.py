@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import errno
 import importlib
+import os
 import pkgutil
 import signal
 import sys
@@ -85,6 +86,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     alone = are_ours()  # a test that calls this has streams of its own, and goes on when this has ended
     if alone:
+        os.environ["PYTHONSAFEPATH"] = "1"  # no Python that this one starts looks for modules among the uploads
         make_safe()
         _hear_signals()
     try:

@@ -26,8 +26,18 @@ def _lives(pid: int) -> bool:
     return pid != os.getpid()
 
 
+def make_private(folder: Path) -> None:
+    """Make a folder and those above it, where they are missing; only their owner may look in, whatever the umask is."""
+    if not folder.is_dir():
+        make_private(folder.parent)
+        folder.mkdir(mode=0o700, exist_ok=True)
+        folder.chmod(0o700)
+
+
 def write_whole(path: Path, data: bytes) -> None:
     """Write a file so that a reader sees the old bytes or the new ones, never a part.
+
+    Only its owner may read it, whatever the umask is; a file that somebody has opened to others stays open.
 
     Raises
     ------
@@ -36,8 +46,25 @@ def write_whole(path: Path, data: bytes) -> None:
     """
     draft = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        draft.write_bytes(data)
+        with os.fdopen(_for_the_owner(draft), "wb") as file:
+            file.write(data)
+        if mode := _opened(path):
+            draft.chmod(mode)
         draft.replace(path)
     except OSError as error:
         draft.unlink(missing_ok=True)
         raise UsageError(f"{path} could not be written ({error.strerror}); what was there before is kept.") from None
+
+
+def _for_the_owner(draft: Path) -> int:
+    draft.unlink(missing_ok=True)
+    return os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o600)
+
+
+def _opened(path: Path) -> int:
+    """Return the mode of a file that people have opened to others; 0 where there is none."""
+    try:
+        mode = path.stat().st_mode & 0o666
+    except OSError:
+        return 0
+    return mode if mode & 0o066 else 0

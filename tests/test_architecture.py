@@ -21,7 +21,7 @@ writing            -> errors
 lifeline           -> nothing
 reference_solution -> nothing
 assignment         -> posegraph
-problems           -> posegraph, lifeline, errors
+problems           -> posegraph, lifeline, writing, errors
 sandbox            -> errors
 intake             -> errors, sandbox
 stages             -> problems, reference_solution, verdicts, posegraph
@@ -31,7 +31,7 @@ render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, lifeline,
                       errors
 marking            -> course, verdicts, writing, errors
-reports            -> verdicts, marking, render.figure, render.formula, errors
+reports            -> verdicts, marking, render.figure, render.formula, writing, errors
 exports            -> render, stages, problems, posegraph, reports, verdicts, writing, errors
 desk               -> reports, marking, course, verdicts, errors
 audit              -> errors, verdicts, course, assignment, reference_solution, sandbox.frames, intake, engine,
@@ -212,7 +212,7 @@ def test_a_broken_arrow_is_seen(tmp_path: Path, room: str, text: str) -> None:
         (
             "autograder.reports.html",
             "import autograder.render.stub",
-            "reports may import errors, marking, render.figure, render.formula, verdicts",
+            "reports may import errors, marking, render.figure, render.formula, verdicts, writing",
         ),
         ("autograder.__init__", "import autograder.errors", "autograder/__init__.py may import nothing of ours"),
         ("autograder.attic.old", "", "There is a room `attic`, which the table does not know"),

@@ -55,8 +55,8 @@ def _write_answers(out: Path, found: Decided, anonymous: bool) -> None:
     """Write written.html and written.csv; a sheet with points that nobody has read back is left alone."""
     from autograder.marking.anonymous import anonymous_names, read_key
     from autograder.marking.sheet import FILE, sheet_text, unread
-    from autograder.reports.gradebook import replace_file
     from autograder.reports.written import written_page
+    from autograder.writing import write_whole
 
     key = {submission: name for name, submission in read_key(out).items()}
     names = None
@@ -66,14 +66,14 @@ def _write_answers(out: Path, found: Decided, anonymous: bool) -> None:
     if not answers and not (out / FILE).exists():
         return
     title, guide = found.course.title, found.course.guide
-    replace_file(out / "written.html", written_page(answers, title, guide, anonymous).encode())
+    write_whole(out / "written.html", written_page(answers, title, guide, anonymous).encode())
     if unread(out / FILE, answers, key):
         say(
             f"{out / FILE} holds marks that are not read yet and was not written over; "
             f"take them: autograder report {out} --marks {out / FILE}"
         )
     else:
-        replace_file(out / FILE, sheet_text(answers).encode())
+        write_whole(out / FILE, sheet_text(answers).encode())
 
 
 def say(note: str) -> None:

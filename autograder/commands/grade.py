@@ -252,9 +252,10 @@ def grade_and_report(
 def make_folder(out: Path) -> None:
     """Make the folder for the results, or say in one sentence why not."""
     from autograder.errors import UsageError
+    from autograder.writing import make_private
 
     try:
-        out.mkdir(parents=True, exist_ok=True)
+        make_private(out)
     except OSError as error:
         raise UsageError(f"-o {out}: no folder can be made there ({error.strerror}); choose another.") from error
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from difflib import get_close_matches
 from typing import Any
+from zoneinfo import ZoneInfo
 
 from autograder.course.settings import DEFAULT_POINTS, QUESTION_POINTS, STAGES
 
@@ -61,6 +62,13 @@ def _is_moment(value: Any) -> bool:
     return isinstance(value, datetime) and value.tzinfo is not None
 
 
+def _is_zone(value: Any) -> bool:
+    try:
+        return isinstance(value, str) and "/" in value and bool(ZoneInfo(value).key)
+    except (LookupError, OSError, ValueError):
+        return False
+
+
 _POLICY = _one_of("full", "hint", "score")
 _POLICIES = '"full", "hint" or "score"'
 _MOMENT = "a date, a time and an offset from UTC without quotes, such as 2026-11-20T23:59:00+01:00"
@@ -94,6 +102,7 @@ KEYS: dict[str, dict[str, Setting]] = {
     },
     "late": {
         "due": Setting("due", _is_moment, _MOMENT),
+        "zone": Setting("zone", _is_zone, 'the name of a time zone, such as "Europe/Berlin"'),
         "grace_minutes": Setting("grace_minutes", _number(0, 10_000), "minutes from 0 to 10000", float),
         "per_day": Setting("late_per_day", _number(0, 100), "per cent from 0 to 100", float),
         "days": Setting("late_days", _whole(0, 365), "whole days from 0 to 365"),

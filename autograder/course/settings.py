@@ -19,7 +19,7 @@ QUESTION_POINTS: Mapping[str, float] = MappingProxyType({"2": 2.0, "3": 3.0})
 # Settings that reports apply to stored verdicts: changing them runs nobody's code again.
 AFTERWARDS = frozenset(
     {
-        "title", "feedback", "before_due", "due", "grace_minutes", "late_per_day", "late_days", "extensions",
+        "title", "feedback", "before_due", "due", "zone", "grace_minutes", "late_per_day", "late_days", "extensions",
         "question_points", "guide",
     }
 )  # fmt: skip
@@ -60,6 +60,8 @@ class Course:
         What a student is shown until the last due date has passed; None: no difference.
     due : datetime or None
         When the homework is due; None: nothing is late.
+    zone : str
+        Name of the time zone of the course, such as "Europe/Berlin"; "" where none is named.
     grace_minutes : float
         Minutes after the due date that cost nothing.
     late_per_day : float
@@ -91,6 +93,7 @@ class Course:
     feedback: Feedback = "full"
     before_due: Feedback | None = None
     due: datetime | None = None
+    zone: str = ""
     grace_minutes: float = 0.0
     late_per_day: float = 0.0
     late_days: int | None = None

@@ -64,6 +64,8 @@ policy = "{_DEFAULT.feedback}"
 # When the homework is due; without this line nothing is late. The time of a submission is what the export of the
 # learning platform says (Gradescope, nbgrader); where it says nothing, no penalty is taken.
 # due = 2026-11-20T23:59:00+01:00
+# The time zone of the course: days end at the hour of the due date there, also where the clock was changed.
+# zone = "Europe/Berlin"
 # Minutes after the due date that cost nothing.
 grace_minutes = {_DEFAULT.grace_minutes:g}
 # Per cent of the maximum that each begun day costs.

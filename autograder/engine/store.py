@@ -16,7 +16,7 @@ import numpy as np
 import autograder
 from autograder.errors import UsageError
 from autograder.verdicts import Result, decode, encode
-from autograder.writing import sweep, write_whole
+from autograder.writing import make_private, sweep, write_whole
 
 # Rooms that are left out of the digest of the code: specimens are data, and the others come after the verdicts.
 SHOWING = {"specimens", "reports", "exports", "marking", "desk", "commands", "audit", "cli.py", "__main__.py", "render"}
@@ -58,7 +58,8 @@ class Store:
         self.out = out
         self.results = out / "results"
         try:
-            self.results.mkdir(parents=True, exist_ok=True)
+            make_private(out)
+            make_private(self.results)
         except OSError as error:
             raise UsageError(
                 f"{out} cannot be used as output folder ({error.strerror}); choose another with -o."

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from msgspec.structs import replace
 
 from autograder.course import BONUS, Course
-from autograder.marking.lateness import days_late, due_for, moment, penalised
+from autograder.marking.lateness import days_late, penalised, unknown_time
 from autograder.marking.marks import Mark, Marks, digest
 from autograder.marking.overrides import TOTAL, Override, whose
 from autograder.marking.repointing import repointed
@@ -90,9 +90,8 @@ def _merged(result: Result, marks: Marks, overrides: Sequence[Override], course:
         if said and after != score:
             adjustments.append(Adjustment(stage="", before=score, after=after, said=said))
             score = after
-        due = due_for(result, course)
-        if result.late and due is not None and moment(result.submitted, due.tzinfo) is None:
-            flags.append("The learning platform marks it late and gives no time; no penalty was taken.")
+        if doubt := unknown_time(result, course):
+            flags.append(doubt)
     for one in overrides:
         if one.stage == TOTAL:
             adjustments.append(_adjustment(one, score))

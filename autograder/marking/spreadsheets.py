@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 
 # What makes a spreadsheet run a cell instead of showing it, also behind blanks and in full width.
 _STARTS_A_FORMULA = tuple("=+-@|%\uff1d\uff0b\uff0d\uff20'")
@@ -31,6 +32,11 @@ def bare(text: str) -> str:
     """
     rest = text.removeprefix("'")
     return rest if rest != text and rest.lstrip().startswith(_STARTS_A_FORMULA) else text
+
+
+def plain(name: str) -> str:
+    """Bring a name that people typed to the form in which names are compared: no outer blanks, composed accents."""
+    return unicodedata.normalize("NFC", name.strip())
 
 
 def exact(value: float) -> str:

@@ -197,7 +197,7 @@ def _write(task: _Task) -> str:
     if kind in {"new", "rewritten"}:
         replace_folder(folder, files)
     if kind != "different":
-        _put(task.out / ZIPS / f"{name}.zip", _zipped(name, files), mode=0o644)
+        _put(task.out / ZIPS / f"{name}.zip", _zipped(name, files))
     _put(task.out / STAFF / "solutions" / f"{name}.md", hand_solution(task.variant).encode())
     if task.render_key is not None:
         for suffix, text in task.render_key(task.variant.problem).items():
@@ -225,10 +225,10 @@ def _zipped(student_id: str, files: Mapping[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
-def _put(path: Path, data: bytes, mode: int = 0o600) -> None:
+def _put(path: Path, data: bytes) -> None:
     """Write a file unless it holds just this."""
     if not (path.is_file() and path.read_bytes() == data):
-        replace_file(path, data, mode=mode)
+        replace_file(path, data)
 
 
 def _key_table(ledger: Ledger) -> bytes:

@@ -8,13 +8,15 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
+from autograder.writing import make_private, write_whole
+
 __all__ = ["UNFINISHED", "replace_file", "replace_folder"]
 
 UNFINISHED = ".unfinished-"  # names that begin like this were left by a run that was killed
 
 
-def replace_file(path: Path, data: bytes, *, mode: int = 0o600, lasting: bool = False) -> None:
-    """Write a file beside its place, then move it there.
+def replace_file(path: Path, data: bytes, *, lasting: bool = False) -> None:
+    """Write a file beside its place, then move it there; only its owner may read it.
 
     Parameters
     ----------
@@ -22,12 +24,10 @@ def replace_file(path: Path, data: bytes, *, mode: int = 0o600, lasting: bool = 
         Its place; missing folders are made.
     data : bytes
         What it shall hold.
-    mode : int
-        Who may read it; by default only its owner.
     lasting : bool
         Whether it must also be there whole when the power fails.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
+    make_private(path.parent)
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=UNFINISHED)
     try:
         with os.fdopen(handle, "wb") as file:
@@ -35,7 +35,6 @@ def replace_file(path: Path, data: bytes, *, mode: int = 0o600, lasting: bool = 
             if lasting:
                 file.flush()
                 os.fsync(file.fileno())
-        Path(name).chmod(mode)
         Path(name).replace(path)
     except BaseException:
         Path(name).unlink(missing_ok=True)
@@ -44,12 +43,11 @@ def replace_file(path: Path, data: bytes, *, mode: int = 0o600, lasting: bool = 
 
 def replace_folder(folder: Path, files: Mapping[str, bytes]) -> None:
     """Write a folder beside its place, then move it there; what stood there before is gone."""
-    folder.parent.mkdir(parents=True, exist_ok=True)
+    make_private(folder.parent)
     beside = Path(tempfile.mkdtemp(dir=folder.parent, prefix=UNFINISHED))
     for name, data in files.items():
-        (beside / name).parent.mkdir(parents=True, exist_ok=True)
-        (beside / name).write_bytes(data)
-    beside.chmod(0o755)
+        make_private((beside / name).parent)
+        write_whole(beside / name, data)
     if folder.exists():
         old = Path(tempfile.mkdtemp(dir=folder.parent, prefix=UNFINISHED))
         folder.replace(old / folder.name)

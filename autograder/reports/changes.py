@@ -8,9 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from autograder.reports.gradebook import defused, exact, replace_file
+from autograder.reports.gradebook import defused, exact
 from autograder.reports.wording import points, visible
 from autograder.verdicts import Result
+from autograder.writing import write_whole
 
 FILE = "changes.csv"
 _MOST_LINES = 20
@@ -77,7 +78,7 @@ def write_changes(found: Sequence[Change], out: Path) -> None:
     for one in found:
         both = one.before is not None and one.after is not None
         writer.writerow((defused(one.submission), _text(one.before), _text(one.after), exact(_by(one)) if both else ""))
-    replace_file(out / FILE, file.getvalue().encode())
+    write_whole(out / FILE, file.getvalue().encode())
 
 
 def _by(one: Change) -> float:

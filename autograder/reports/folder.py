@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from autograder.reports.feedback import Policy, feedback_page
-from autograder.reports.gradebook import replace_file, write_gradebook
+from autograder.reports.gradebook import write_gradebook
 from autograder.reports.overview import class_page
 from autograder.verdicts import Result
+from autograder.writing import make_private, write_whole
 
 
 def write_reports(
@@ -39,8 +40,8 @@ def write_reports(
         Title of the homework.
     """
     pages = out / "feedback"
-    pages.mkdir(parents=True, exist_ok=True)
+    make_private(pages)
     write_gradebook(results, out / "grades.csv", stages)
     for result in results:
-        replace_file(pages / f"{result.submission}.html", feedback_page(result, feedback, course).encode())
-    replace_file(out / "report.html", class_page(results, record, course).encode())
+        write_whole(pages / f"{result.submission}.html", feedback_page(result, feedback, course).encode())
+    write_whole(out / "report.html", class_page(results, record, course).encode())

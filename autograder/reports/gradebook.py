@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 import re
-import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from autograder.reports.summary import provisional
 from autograder.verdicts import Result
+from autograder.writing import write_whole
 
 COLUMNS = ("submission", "student_id", "variant", "status", "score", "max_score")
 NOTE = "note"  # the last column
@@ -32,7 +31,7 @@ def write_gradebook(results: Iterable[Result], path: Path, stages: Sequence[str]
     stages : sequence of str
         Stages that have a column even where no result knows them, in their order.
     """
-    replace_file(path, gradebook_text(results, stages).encode())
+    write_whole(path, gradebook_text(results, stages).encode())
 
 
 def gradebook_text(results: Iterable[Result], stages: Sequence[str] = ()) -> str:
@@ -91,16 +90,3 @@ def exact(value: float) -> str:
     ('87.5', '100', '6.66666666667')
     """
     return f"{value + 0.0:.12g}"
-
-
-def replace_file(path: Path, data: bytes) -> None:
-    """Write beside `path` and move into place, so that an interruption leaves the old file whole."""
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        Path(name).chmod(0o644)
-        Path(name).replace(path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise

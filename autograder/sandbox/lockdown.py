@@ -12,6 +12,7 @@ import fcntl
 import os
 import signal
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -88,7 +89,7 @@ class Lock:
         code = seccomp.program(seccomp.ARCHITECTURES[machine], otherwise)
         self._instructions = ctypes.create_string_buffer(seccomp.encode(code))
         self._program = _Program(len(code), ctypes.addressof(self._instructions))
-        return ""
+        return "" if self.trace else _tried(self._filter)
 
     def _prepare_landlock(self) -> str:
         if "landlock" in self.without:
@@ -110,7 +111,7 @@ class Lock:
             return os.strerror(ctypes.get_errno())
         self._ruleset = fcntl.fcntl(descriptor, fcntl.F_DUPFD_CLOEXEC, _OUT_OF_THE_WAY)
         os.close(descriptor)
-        return ""
+        return _tried(self._fence)
 
     def tie(self, parent: int) -> None:
         """Have the kernel kill this process when its parent ends; end at once where it already has."""
@@ -122,9 +123,9 @@ class Lock:
     def close(self, keep: int) -> None:
         """Lock the calling process; descriptors from `keep` on are closed. Raises OSError where a part fails."""
         if self._libc is not None:
-            self._call("PR_SET_NO_NEW_PRIVS", self._libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0))
+            self._keep_privileges_out()
             if not self.landlock:
-                self._call("landlock_restrict_self", self._libc.syscall(_LANDLOCK_RESTRICT, self._ruleset, 0))
+                self._fence()
         os.closerange(keep, _ABOVE_ALL)
         if "rlimits" not in self.without:
             self._limit()
@@ -133,8 +134,19 @@ class Lock:
             listener = self._libc.syscall(number, _SET_MODE_FILTER, _NEW_LISTENER, ctypes.byref(self._program))
             self._call("seccomp", 0 if listener == keep else -1)
         elif self._libc is not None and not self.seccomp:
-            result = self._libc.prctl(_PR_SET_SECCOMP, _MODE_FILTER, ctypes.byref(self._program), 0, 0)
-            self._call("PR_SET_SECCOMP", result)
+            self._filter()
+
+    def _keep_privileges_out(self) -> None:
+        self._call("PR_SET_NO_NEW_PRIVS", self._libc.prctl(_PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0))
+
+    def _fence(self) -> None:
+        self._keep_privileges_out()
+        self._call("landlock_restrict_self", self._libc.syscall(_LANDLOCK_RESTRICT, self._ruleset, 0))
+
+    def _filter(self) -> None:
+        self._keep_privileges_out()
+        result = self._libc.prctl(_PR_SET_SECCOMP, _MODE_FILTER, ctypes.byref(self._program), 0, 0)
+        self._call("PR_SET_SECCOMP", result)
 
     def _call(self, name: str, result: int) -> None:
         if result != 0:
@@ -175,3 +187,25 @@ def _drop_capabilities(libc: Any) -> None:
     if number is not None:
         header = (ctypes.c_uint32 * 2)(_CAP_VERSION_3, 0)
         libc.syscall(number, header, (ctypes.c_uint32 * 6)())  # a failure leaves what the filter refuses anyway
+
+
+def _tried(lock: Callable[[], None]) -> str:
+    """Close a part of the lock in a process made for it; return why it cannot be closed, "" where it can.
+
+    A kernel, or the container around this, may let a process ask for a lock and then not let it close one.
+    """
+    pid = os.fork()
+    if pid == 0:
+        number = errno.EIO
+        try:
+            lock()
+            number = 0
+        except OSError as error:
+            number = error.errno or errno.EIO
+        finally:
+            os._exit(number if number < 256 else errno.EIO)
+    _, status = os.waitpid(pid, 0)
+    if not os.WIFEXITED(status):
+        return f"tried, and ended by signal {os.WTERMSIG(status)}"
+    code = os.WEXITSTATUS(status)
+    return f"tried, and refused by the kernel ({os.strerror(code)})" if code else ""

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from autograder.reports.gradebook import defused, gradebook_text, replace_file, write_gradebook
+from autograder.errors import UsageError
+from autograder.reports.gradebook import defused, gradebook_text, write_gradebook
 from tests.reports.examples import POINTS, result, small_class, stage
 
 
@@ -74,7 +75,7 @@ def test_the_file_is_replaced_in_one_step(tmp_path: Path, monkeypatch: pytest.Mo
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "replace", full)
-    with pytest.raises(OSError, match="No space"):
-        replace_file(path, b"half")
+    with pytest.raises(UsageError, match="No space"):
+        write_gradebook([result("bob")], path)
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir()] == ["grades.csv"]
