@@ -15,10 +15,10 @@ from autograder.engine.plan import Task
 from autograder.problems.cases import Case
 from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs
-from autograder.stages.base import Array, Stage
+from autograder.stages.base import Array, Shape, Stage
 from autograder.stages.wording import number
 
-_TOO_LARGE = re.compile(r"(?:value ([12]) of 2: )?(shape .*)")
+_ONE_OF_TWO = re.compile(r"value ([12]) of 2: (.*)")  # as the child says it
 PARTS = {"normal_equations": ("H", "b"), "sparsity_pattern": ("J_mask", "H_mask")}
 
 
@@ -85,11 +85,10 @@ def _unusable(stage: Stage, call: Came) -> tuple[Outcome, str] | None:
     function = f"{stage.function}(x + dx(x), graph)" if call.again else stage.function
     wanted = stage.shapes(*call.arguments)
     whats = [f"{name} of {function}" if name else function for name in _names(stage)]
+    if call.outcome is Outcome.BAD_VALUE:
+        came = call.reason or "no numbers"
+        return call.outcome, _refused(whats, wanted, came) or f"{function} returned {came}."
     if call.outcome is not Outcome.OK:
-        large = _TOO_LARGE.fullmatch(call.reason)
-        part = int(large[1] or 1) - 1 if large else 0
-        if call.outcome is Outcome.BAD_VALUE and large and part < stage.parts:  # too large to be sent at all
-            return call.outcome, f"{whats[part]} returned {large[2]}, expected {wanted[part]}."
         return call.outcome, _odd(function, call.outcome, call.reason)
     for what, array, shape in zip(whats, call.arrays, wanted, strict=True):
         if array.shape != shape:
@@ -100,6 +99,17 @@ def _unusable(stage: Stage, call: Came) -> tuple[Outcome, str] | None:
     return None
 
 
+def _refused(whats: Sequence[str], wanted: Sequence[Shape], said: str) -> str:
+    """Say which value is no array of real numbers, or too large to be sent; "" where all together is no pair."""
+    found = _ONE_OF_TWO.fullmatch(said) if len(whats) > 1 else None
+    part, came = (int(found[1]) - 1, found[2]) if found else (0, said)
+    if len(whats) > 1 and not found:
+        return ""
+    if came.startswith("shape"):
+        return f"{whats[part]} returned {came}, expected {wanted[part]}."
+    return f"{whats[part]} returned {came}; expected an array of real numbers, shape {wanted[part]}."
+
+
 def _odd(function: str, outcome: Outcome, reason: str) -> str:
     if outcome is Outcome.UNFINISHED:
         return f"{function} is unfinished: it raises NotImplementedError."
@@ -107,11 +117,7 @@ def _odd(function: str, outcome: Outcome, reason: str) -> str:
         return f"{function} uses the module {reason or '(unknown)'}, which is not allowed here; numpy is."
     if outcome is Outcome.MEMORY:
         return f"{function} needs more memory than it is given."
-    if outcome is Outcome.RAISED:
-        return f"{function} raised {reason or 'an exception'}."
-    if ", expected" in reason:  # that a value is no pair, in the words of the child
-        return f"{function} returned {reason}."
-    return f"{function} returned {reason or 'no numbers'}; expected an array of real numbers."
+    return f"{function} raised {reason or 'an exception'}."
 
 
 def _names(stage: Stage) -> Sequence[str]:

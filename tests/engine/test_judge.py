@@ -190,7 +190,7 @@ def test_each_function_of_a_stage_is_asked_whether_or_not_the_other_is_there(gra
     text = REFERENCE + "\n\ndel range_residual\n"
     verdict = grade_source(text)["range_factor"]
     assert {check.name: check.passed for check in verdict.checks} == {"distances": False, "derivatives": True}
-    assert verdict.checks[0].message == "range_residual is not defined in the submission."
+    assert verdict.checks[0].message.startswith("range_residual is no")
 
 
 def test_what_is_wrong_in_the_second_round_is_shown_there(grade_source):
@@ -201,7 +201,8 @@ def test_what_is_wrong_in_the_second_round_is_shown_there(grade_source):
     )
     verdict = grade_source(text)["second_step"]
     check = next(check for check in verdict.checks if not check.passed)
-    assert check.message == "gauss_newton_step(x + dx(x), graph) returned None; expected an array of real numbers."
+    expected = "expected an array of real numbers, shape (5,)."
+    assert check.message == f"gauss_newton_step(x + dx(x), graph) returned None; {expected}"
     shown = check.counterexample
     graph = PoseGraph(**shown["graph"])
     assert np.abs(slam1d.gauss_newton_step(np.array(shown["x"]), graph)).max() < 1e-6

@@ -30,18 +30,15 @@ from tests.fuzz.anything import ARGUMENTS, PARTS, REPORTED, Behaviour, Drawn, Va
 ROOT = Path(__file__).resolve().parents[2]
 _TAG = re.compile(r"<[^>]*>")
 SHAPE = r"\([\d, ]*\)"
+CALL = r"(?:(\w+) of )?(\w+)(?:\(x \+ dx\(x\), graph\))?"  # which part of which function, in which round
 CLAIMS = {
-    "shape": re.compile(
-        rf"(?:(\w+) of )?(\w+)(?:\(x \+ dx\(x\), graph\))? returned shape ({SHAPE}), expected ({SHAPE})\."
-    ),
-    "odd": re.compile(r"(?:(\w+) of )?(\w+)(?:\(x \+ dx\(x\), graph\))? returned (nan|inf), expected finite numbers"),
-    "words": re.compile(
-        r"()(\w+)(?:\(x \+ dx\(x\), graph\))? returned ((?!shape|nan|inf|\w*\[).*?)(?:; expected an array of real|\.$)"
-    ),
-    "raised": re.compile(r"()(\w+)(?:\(x \+ dx\(x\), graph\))? raised (\w+)"),
-    "unfinished": re.compile(r"()(\w+)(?:\(x \+ dx\(x\), graph\))? is unfinished: it raises NotImplementedError"),
-    "memory": re.compile(r"()(\w+)(?:\(x \+ dx\(x\), graph\))? needs more memory"),
-    "forbidden": re.compile(r"()(\w+)(?:\(x \+ dx\(x\), graph\))? uses the module scipy"),
+    "shape": re.compile(CALL + rf" returned shape ({SHAPE}), expected ({SHAPE})\."),
+    "odd": re.compile(CALL + r" returned (nan|inf), expected finite numbers"),
+    "words": re.compile(CALL + r" returned ((?!shape|nan|inf|\w*\[).*?)(?:; expected an array of real|\.$)"),
+    "raised": re.compile(CALL + r" raised (\w+)"),
+    "unfinished": re.compile(CALL + r" is unfinished: it raises NotImplementedError"),
+    "memory": re.compile(CALL + r" needs more memory"),
+    "forbidden": re.compile(CALL + r" uses the module scipy"),
 }
 FUNCTION = {"second_step": "gauss_newton_step"}
 
@@ -182,8 +179,8 @@ def _claimed(kind: str, found: re.Match[str], behaviour: Behaviour, value: Value
     if kind == "odd":
         return _part(found[1], behaviour) and value.odd == found[3]
     if kind == "words":
-        before = f"value {behaviour.part + 1} of 2: " if behaviour.part >= 0 else ""
-        return bool(value.words) and found[3].startswith(before + value.words.partition(", expected")[0])
+        said = bool(value.words) and found[3].startswith(value.words.partition(", expected")[0])
+        return said and (found[1] is None if behaviour.part < 0 else _part(found[1], behaviour))
     raised = {"unfinished": "NotImplementedError", "memory": "MemoryError", "forbidden": "forbidden"}.get(kind)
     return value.raised == (raised or found[3])
 
