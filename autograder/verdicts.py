@@ -69,6 +69,8 @@ class Adjustment(msgspec.Struct, frozen=True, kw_only=True):
 class Result(msgspec.Struct, frozen=True, kw_only=True):
     """One submission, as written to results/<submission>.json.
 
+    `by` is what told whose it is, when the roster was asked; `account` is the person in the system of the
+    uploads, such as "Canvas 101", and `student_id` where no roster was asked is what that system says.
     `score` is None exactly when `status` is "grader_error": our fault is never a zero. `awaiting`
     are points that a human reader has still to give; as long as there are any, the score is
     `provisional`. `locks` says in words what the level of `confinement` stands for;
@@ -82,6 +84,8 @@ class Result(msgspec.Struct, frozen=True, kw_only=True):
 
     submission: str
     student_id: str | None = None
+    by: str = ""
+    account: str = ""
     variant: str = "worked-example"
     status: SubmissionStatus
     message: str = ""

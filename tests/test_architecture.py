@@ -15,15 +15,16 @@ PACKAGES = ("assignment", "autograder", "reference_solution")
 # A room may import itself, the version in autograder/__init__.py, and what its line names: rooms of lines above.
 ARROWS = """
 errors             -> nothing
+owner              -> nothing
 verdicts           -> nothing
 posegraph          -> nothing
 writing            -> errors
 lifeline           -> nothing
 reference_solution -> nothing
 assignment         -> posegraph
-problems           -> posegraph, lifeline, writing, errors
+problems           -> posegraph, lifeline, owner, writing, errors
 sandbox            -> errors
-intake             -> errors, sandbox
+intake             -> errors, owner, sandbox
 stages             -> problems, reference_solution, verdicts, posegraph
 course             -> stages, errors
 diagnosis          -> posegraph, stages, problems, verdicts

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from autograder.problems.secret import Secret
 
 MISSING = "missing.csv"
+_STAFF_NOTE = "Whose submission this is was told by the course staff"
 _LISTED = 5
 
 
@@ -42,7 +43,17 @@ def people_options(function: Function) -> Function:
             "--roster",
             type=click.Path(path_type=Path),
             metavar="CSV",
-            help="The class: says whose each submission is, and who has handed in nothing.",
+            help="The class: says whose each submission is, and who has handed in nothing. Its student_id is the SID "
+            "of Gradescope, the student of nbgrader, the folder's or file's name of plain folders. Canvas and Moodle "
+            "have numbers of their own, so there the name says it, or a column canvas_id or moodle_id.",
+        ),
+        click.option(
+            "--is",
+            "given",
+            multiple=True,
+            metavar="UPLOAD=ID",
+            help="Whose a submission is, by its name in grades.csv, where the uploads do not say or staff know better; "
+            "may be given again. It is remembered in OUT; UPLOAD= takes it back.",
         ),
     ):
         function = option(function)
@@ -96,20 +107,56 @@ def people_of(
     return People(students, entries)
 
 
-def assign(submissions: Sequence[Submission], people: People) -> dict[str, Assigned]:
-    """Match submissions to students, and give each the student's variant and what to say about the match."""
+def decisions(pairs: Iterable[str]) -> dict[str, str]:
+    """Read UPLOAD=ID; an empty ID takes a decision back."""
+    found: dict[str, str] = {}
+    for text in pairs:
+        name, sign, student = text.rpartition("=")
+        if not sign or not name:
+            raise click.UsageError(f"--is {text!r}: expected UPLOAD=ID, such as --is jane=1017.")
+        found[name] = student.strip()
+    return found
+
+
+def decide(
+    submissions: Sequence[Submission], people: People | None, pairs: Iterable[str], out: Path
+) -> tuple[dict[str, Assigned] | None, dict[str, str]]:
+    """Assign, with what staff say now and have said before for this folder; return that, too, to be kept."""
+    from autograder.marking.owners import decide as decide_owners
+
+    students = None if people is None else [one.student_id for one in people.students]
+    owners = decide_owners(out, decisions(pairs), {one.id for one in submissions}, students)
+    return (assign(submissions, people, owners) if people is not None or owners else None), owners
+
+
+def assign(
+    submissions: Sequence[Submission], people: People | None, given: Mapping[str, str] | None = None
+) -> dict[str, Assigned]:
+    """Match submissions to students, and give each the student's variant and what to say about the match.
+
+    `given` is what staff have decided; where there is no class to match with, it is all that is known.
+    """
     from autograder.engine.run import Assigned
     from autograder.problems.copied import Numbers
-    from autograder.problems.matching import Upload, match
+    from autograder.problems.matching import STAFF, Upload, match
     from autograder.problems.variants import published
 
+    given = given or {}
+    if people is None:
+        return {
+            one.id: Assigned(published(), given[one.id], note=f"{_STAFF_NOTE}.", by=STAFF, account=_account(one))
+            for one in submissions
+            if one.id in given
+        }
+    ids = {student.student_id.casefold() for student in people.students}
     entries = people.ledger
     owners = {variant.identifier: variant.student_id for variant in entries or ()}
     owners.pop(published().identifier, None)
     others = None if entries is None else Numbers(entries)
-    uploads = [Upload(one.id, one.path, one.variant) for one in submissions]
+    uploads = [Upload(one.id, one.path, one.variant, one.owner, one.file) for one in submissions]
+    spoken = {one.submission: one.student_id for one in match(uploads, people.students, owners)} if given else {}
     assigned = {}
-    for found in match(uploads, people.students, owners):
+    for one, found in zip(submissions, match(uploads, people.students, owners, given), strict=True):
         own = None if entries is None or found.student_id is None else entries.get(found.student_id)
         flags = [found.note] if found.note else []
         if entries is not None and found.student_id is not None and own is None:
@@ -120,14 +167,28 @@ def assign(submissions: Sequence[Submission], people: People) -> dict[str, Assig
             others,
             _note(found, own is not None, entries is not None),
             _flag(flags),
+            found.by,
+            # staff who say that it is somebody else's than the platform says mean that person's row everywhere
+            account=_account(one) if spoken.get(one.id) in {None, found.student_id} else "",
+            free=(one.student_id or "").casefold() not in ids,
         )
     return assigned
 
 
+def _account(one: Submission) -> str:
+    return "" if one.owner is None else one.owner.account
+
+
 def _note(found: Match, has_variant: bool, variants: bool) -> str:
-    """Say how a submission was matched; the student may read it."""
+    """Say how a submission was matched; the student may read it, so it names nobody where there is doubt."""
+    from autograder.problems.matching import STAFF
+
     if found.student_id is None:
         words = "It was not clear whose submission this is"
+    elif found.by == STAFF:
+        words = _STAFF_NOTE
+    elif found.note:  # it may be somebody else's, whose page this would then be
+        words = f"Whose submission this is was told by the {found.by}"
     else:
         words = f"Taken for the submission of {found.student_id}, going by the {found.by}"
     return f"{words}{'' if has_variant or not variants else '; the answers were judged on the worked example'}."
@@ -158,7 +219,10 @@ def report_missing(people: People, assigned: Mapping[str, Assigned], out: Path) 
         click.echo(f"\nNo submission from {len(missing)} of {total} students: {_some(missing)}.", err=True)
         click.echo(f"They are listed in {out / MISSING}.", err=True)
     if nobodys:
-        click.echo(f"{len(nobodys)} submissions name nobody of the class: {_first(nobodys)}.", err=True)
+        words = "1 submission is" if len(nobodys) == 1 else f"{len(nobodys)} submissions are"
+        click.echo(f"{words} nobody's of the class: {_first(nobodys)}; say whose with --is {nobodys[0]}=ID.", err=True)
+    if nobodys and len(nobodys) == len(assigned):
+        click.echo("Nobody of the roster has handed in anything: is it the roster of this class?", err=True)
 
 
 def _some(students: Sequence[Student]) -> str:

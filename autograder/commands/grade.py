@@ -114,6 +114,7 @@ def command(
     term: str | None,
     secret_file: Path | None,
     families: Sequence[str],
+    given: Sequence[str],
     only: Sequence[str],
     as_json: bool,
     **options: Any,
@@ -130,18 +131,19 @@ def command(
     autograder grade uploads/ -o graded --course course.toml --seed 2026
     autograder grade uploads/ -o graded --exam midterm.exam
     autograder grade uploads/ -o graded --only alice
+    autograder grade uploads/ -o graded --roster class.csv --is plato_17=s1042
     autograder grade uploads/ -o graded --roster class.csv --ledger release/staff/variants.csv
     autograder grade uploads/ -o graded --roster class.csv --term 2026S --secret-file secret.txt
-    autograder grade uploads/ -o graded --time-limit 5 --memory 1024
     autograder grade uploads/ -o graded --json | jq .score
 
     Exit code: 0 done, whatever the marks; 2 nothing could be read; 3 something could not be graded
     through no fault of the student; 130 interrupted (results so far are kept).
     """
     from autograder.commands._class import secret_of
-    from autograder.commands._people import assign, people_of, report_missing
+    from autograder.commands._people import decide, people_of, report_missing
     from autograder.course import load_course
     from autograder.intake.submission import collect
+    from autograder.marking.owners import store_owners
 
     course = load_course(course_file)
     if course_file is not None:
@@ -150,10 +152,11 @@ def command(
     everything = collect(list(paths))
     submissions = _chosen(everything, only)
     people = people_of(roster, ledger, secret, term, families, course)
-    assigned = None if people is None else assign(everything, people)
+    assigned, owners = decide(everything, people, given, out)
     if secret is not None and term is not None and course.seed is None and options["seed"] is None:
         options["seed"] = secret.seed(term)
     make_folder(out)
+    store_owners(out, owners)
     run = grade_and_report(submissions, course, out, merge=bool(only), assigned=assigned, **options)
     print_results(run.results, out, as_json)
     if people is not None and assigned is not None:

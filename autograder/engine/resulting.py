@@ -76,7 +76,13 @@ class Results:
     def rejected(self, submission: Submission, exam: Exam) -> Result:
         """Write down why an upload could not be read; nothing was run."""
         return self._base(
-            submission, Ran(exam), status="rejected", message=submission.rejection, score=0.0, seconds=0.0
+            submission,
+            Ran(exam),
+            status="rejected",
+            message=submission.rejection,
+            score=0.0,
+            flags=tuple(filter(None, [self.assigned[submission.id].flag])),
+            seconds=0.0,
         )
 
     def fingerprint(self, submission: Submission, exam: Exam) -> str:
@@ -96,6 +102,8 @@ class Results:
                 self.assigned[submission.id].student_id or "",
                 self.assigned[submission.id].note,
                 self.assigned[submission.id].flag,
+                self.assigned[submission.id].by,
+                self._account(submission),
                 f"{submission.submitted} {submission.late}",
                 *submission.markdown,
             ]
@@ -112,11 +120,23 @@ class Results:
             carried = [*assigned.others.in_answers(assigned.student_id, answer.iterates), *carried]
         return (*odd, *(each.text() for each in carried))
 
+    def _student(self, submission: Submission) -> str | None:
+        """Give the student of the roster, else what the system of the uploads says, where that is nobody else's id."""
+        assigned = self.assigned[submission.id]
+        return assigned.student_id or (submission.student_id if assigned.free else None)
+
+    def _account(self, submission: Submission) -> str:
+        """Name the person in the system of the uploads, unless staff say that it is somebody else's work."""
+        account = self.assigned[submission.id].account
+        return account if account is not None else "" if submission.owner is None else submission.owner.account
+
     def _base(self, submission: Submission, ran: Ran, **fields: object) -> Result:
         return msgspec.convert(
             {
                 "submission": submission.id,
-                "student_id": self.assigned[submission.id].student_id or submission.student_id,
+                "student_id": self._student(submission),
+                "by": self.assigned[submission.id].by,
+                "account": self._account(submission),
                 "variant": self.assigned[submission.id].variant.identifier,
                 "max_score": self.course.max_score,
                 "submitted": submission.submitted,

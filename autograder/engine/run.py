@@ -53,6 +53,12 @@ class Assigned:
         How the submission was matched; the student may read it. "" where all is plain.
     flag : str
         What only staff should know, such as a second submission or somebody else's name.
+    by : str
+        What told whose it is, the roster asked; "" where nothing did.
+    account : str or None
+        The person in the system of the uploads, as "Canvas 101"; None where the upload itself says it.
+    free : bool
+        Whether the id of the upload's system may stand where nobody is known: in the roster it is nobody's.
     """
 
     variant: Variant
@@ -60,6 +66,9 @@ class Assigned:
     others: Numbers | None = None
     note: str = ""
     flag: str = ""
+    by: str = ""
+    account: str | None = None
+    free: bool = True
 
     @property
     def sheet(self) -> tuple[str, list[Any]]:

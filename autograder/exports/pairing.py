@@ -26,12 +26,15 @@ class Person:
         How the system names the student's download, number included, as a submission is called.
     name : str
         For messages to staff.
+    account : str
+        The person in this system as an upload from there says it, such as "Canvas 101".
     """
 
     line: int
     ids: tuple[str, ...]
     downloads: tuple[str, ...] = ()
     name: str = ""
+    account: str = ""
 
 
 @dataclass(frozen=True)
@@ -47,8 +50,9 @@ def pair(
 ) -> Pairs:
     """Find the row of every result.
 
-    A result with a student id belongs to the row that has this id. Otherwise its name must be an id of
-    one row, or the name that the system gave the student's download. Nothing else counts.
+    A result from this very system belongs to the row of the number that the upload came with. Otherwise the
+    row has the student's id, or the id is the result's name, or that is how the system named the student's
+    download. Nothing else counts, and no other system's number does.
 
     Parameters
     ----------
@@ -71,14 +75,17 @@ def pair(
     chosen = _decided(results, given or {})
     by_id = _index((person, _fold(one)) for person in people for one in person.ids)
     by_download = _index((person, _spoken(one)) for person in people for one in person.downloads)
+    by_account = _index((person, _fold(person.account)) for person in people)
     by_line: dict[int, Result] = {}
     strangers = []
     for result in results:
-        stated = chosen.get(result.submission) or result.student_id
-        found = by_id.get(_fold(stated or result.submission), ())
-        if not found and (stated is None or stated != chosen.get(result.submission)):
+        decided = chosen.get(result.submission)
+        stated = decided or _stated(result)
+        found = by_account.get(_fold(result.account), ()) if decided is None else ()
+        found = found or by_id.get(_fold(stated or result.submission), ())
+        if not found and decided is None:
             found = by_download.get(_spoken(result.submission), ())
-        if not found and result.submission in chosen:
+        if not found and decided is not None:
             raise UsageError(f"{table} has nobody with the id {stated!r}, which {result.submission} was given.")
         if len(found) > 1:
             lines = " and ".join(str(person.line) for person in found[:3])
@@ -145,6 +152,12 @@ def _decided(results: Sequence[Result], given: Mapping[str, str]) -> dict[str, s
         if name not in known:
             raise UsageError(f"--is {name}=...: there is no such submission among the results; grades.csv lists them.")
     return dict(given)
+
+
+def _stated(result: Result) -> str | None:
+    """Return the id of a roster or an institution; what only the system of the upload knows is none."""
+    of_its_system = result.account and not result.by
+    return None if of_its_system else result.student_id
 
 
 def _index(keys: Iterable[tuple[Person, str]]) -> dict[str, list[Person]]:

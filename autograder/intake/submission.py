@@ -13,8 +13,9 @@ from autograder.intake.inside import problem_inside
 from autograder.intake.layouts import detect, named
 from autograder.intake.naming import distinct_names, printable
 from autograder.intake.reading import digest, read_entry
-from autograder.intake.tree import PROVIDED_FILES, Tree, is_candidate
+from autograder.intake.tree import PROVIDED_FILES, Entry, Tree, is_candidate
 from autograder.intake.upload import Upload
+from autograder.owner import Owner
 from autograder.sandbox.frames import Source
 
 _TRY = "give .py, .ipynb or .zip files, a folder of them, or a folder that holds one folder a student"
@@ -39,8 +40,10 @@ class Submission:
         What staff should know about how it was read; no note names another student.
     digest : str
         SHA-256 of kind and cells as hex; "" where rejected.
-    student_id : str or None
-        The id that the system of the course gave the student, where the layout has one.
+    owner : Owner or None
+        Who handed it in, where the layout says it.
+    file : str
+        The name that the student gave the file; "" where there is none.
     layout : str
         The layout it was found in; "file" for a file given by itself.
     late : bool or None
@@ -61,13 +64,19 @@ class Submission:
     rejection: str = ""
     notes: tuple[str, ...] = ()
     digest: str = ""
-    student_id: str | None = None
+    owner: Owner | None = None
     layout: str = "file"
     late: bool | None = None
     submitted: str = ""
     markdown: tuple[str, ...] = ()
     variant: str = ""
     pictures: Mapping[str, str] = field(default_factory=dict)
+    file: str = ""
+
+    @property
+    def student_id(self) -> str | None:
+        """The id that the system of the course gave the student, where the layout has one."""
+        return None if self.owner is None else self.owner.best
 
 
 @dataclass(frozen=True)
@@ -142,7 +151,18 @@ def _gather(path: Path, layout: str | None) -> list[_Found]:
         provided = entry.name.casefold() in PROVIDED_FILES
         problem = "is a file that was handed out, not a submission" if provided else problem_inside(entry)
     folder = path.parent.name or path.resolve().parent.name
-    return [_Found(Upload(name=entry.stem, entry=entry, problem=problem, folder=folder), "file", shown)]
+    owner, own_name = _named_by_a_system(entry, folder)
+    upload = Upload(entry.stem, entry, problem, folder, owner=owner, own_name=own_name)
+    return [_Found(upload, "file", shown)]
+
+
+def _named_by_a_system(entry: Entry, folder: str) -> tuple[Owner | None, str]:
+    """Say who handed in a file that is given by itself, and under which name, where a system named the file."""
+    chosen, tree = detect(Tree(folder, (entry,)))
+    upload = next(iter(chosen.gather(tree)), None) if chosen.recognise(tree) >= _CLASS_LAYOUT else None
+    if upload is None or upload.entry is None:
+        return None, ""
+    return upload.owner, upload.own_name or upload.entry.name
 
 
 def _class_archive(path: Path, layout: str | None) -> Tree | None:
@@ -170,8 +190,8 @@ def _read(item: _Found, name: str) -> Submission:
     if name != upload.name:
         notes = (*notes, f"Named {name} in the results; it was handed in as {printable(upload.name)[:120]}.")
     submission = Submission(
-        name, item.path, None, notes=notes, student_id=upload.student_id, layout=item.layout, late=upload.late,
-        submitted=upload.submitted,
+        name, item.path, None, notes=notes, owner=upload.owner, layout=item.layout, late=upload.late,
+        submitted=upload.submitted, file=upload.own_name or (upload.entry.name if upload.entry is not None else ""),
     )  # fmt: skip
     try:
         if upload.problem or upload.entry is None:

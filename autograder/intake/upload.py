@@ -10,6 +10,7 @@ from autograder.errors import RejectedUpload
 from autograder.intake.inside import is_read
 from autograder.intake.naming import printable
 from autograder.intake.tree import EXPECTED, PROVIDED_FILES, Entry, is_candidate
+from autograder.owner import Owner
 
 HOMEWORK = "slam1d"  # the name under which the homework is handed out
 CORE = {b"residual", b"jacobian", b"information_matrix", b"normal_equations", b"gauss_newton_step"}
@@ -36,12 +37,14 @@ class Upload:
         The folder it came from; tells two submissions of the same name apart.
     notes : tuple of str
         What staff should know about the choice; no note names another student.
-    student_id : str or None
-        The id that the system of the course gave the student.
+    owner : Owner or None
+        Who handed it in, where the layout says it.
     late : bool or None
         Whether the system marked it late; None where the layout does not say.
     submitted : str
         When it was handed in, as the layout has it; "" where it does not say.
+    own_name : str
+        The name that the student gave the file, where the layout has put something before it.
     """
 
     name: str
@@ -49,9 +52,10 @@ class Upload:
     problem: str = ""
     folder: str = ""
     notes: tuple[str, ...] = ()
-    student_id: str | None = None
+    owner: Owner | None = None
     late: bool | None = None
     submitted: str = ""
+    own_name: str = ""
 
 
 def choose(entries: Sequence[Entry]) -> tuple[Entry | None, str, tuple[str, ...]]:
@@ -113,10 +117,11 @@ def without_companions(entries: Sequence[Entry]) -> list[Entry]:
     return [entry for entry in entries if not _COMPANIONS.fullmatch(entry.name)] or list(entries)
 
 
-def strays(entries: Iterable[Entry]) -> list[Upload]:
+def strays(entries: Iterable[Entry], system: str) -> list[Upload]:
     """Report the submissions that lie where a layout has none: nobody is guessed to be their owner."""
     words = "lies where this layout has no submissions, so whose it is cannot be told; give it by itself"
-    return [Upload(entry.stem, entry, entry.problem or words) for entry in entries if is_candidate(entry)]
+    nobody = Owner(system)
+    return [Upload(entry.stem, entry, entry.problem or words, owner=nobody) for entry in entries if is_candidate(entry)]
 
 
 def listing(names: Sequence[str], limit: int = 4) -> str:

@@ -1,18 +1,22 @@
-"""Which submission is whose: by its folder, its file name or the notebook's metadata, in that order."""
+"""Which submission is whose: the platform is believed; what a student wrote counts only where no platform speaks."""
 
 from __future__ import annotations
 
 import re
-import unicodedata
-from collections import Counter, defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from autograder.owner import Owner
+from autograder.problems.naming import Names
 from autograder.problems.roster import Student, normal_id
 
 __all__ = ["Match", "Upload", "match"]
 
-_WORDS = re.compile(r"[^\W\d_]+")
+STAFF = "word of the course staff"
+# `slam1d-1`, `slam1d (2)`: a copy's number, put there by Canvas or a browser, is nobody's id
+_COPY = re.compile(r"-([1-9]\d?)$|\s?\(([1-9]\d?)\)$")
+_SHORT = 3  # an id of fewer signs stands in a file's name by chance
 
 
 @dataclass(frozen=True)
@@ -27,11 +31,17 @@ class Upload:
         Where it was found, with / between folders.
     metadata : str
         What a notebook's metadata say: a student's id, or the identifier of a variant; "" where nothing.
+    owner : Owner, optional
+        What the layout says; None where it knows nothing.
+    file : str
+        The name that the student gave the file; "" where it is the last part of the path.
     """
 
     submission: str
     path: str
     metadata: str = ""
+    owner: Owner | None = None
+    file: str = ""
 
 
 @dataclass(frozen=True)
@@ -45,7 +55,7 @@ class Match:
     student_id : str, optional
         None where nobody's.
     by : str
-        "folder", "file name", "notebook metadata", or "" where nobody's.
+        "id in Gradescope", "name in Canvas", "folder", "file name" and the like; "" where nobody's.
     note : str
         What a human should know; "" where all is plain.
     """
@@ -57,13 +67,18 @@ class Match:
 
 
 def match(
-    uploads: Sequence[Upload], students: Iterable[Student], variants: Mapping[str, str] | None = None
+    uploads: Sequence[Upload],
+    students: Iterable[Student],
+    variants: Mapping[str, str] | None = None,
+    given: Mapping[str, str] | None = None,
 ) -> list[Match]:
     """Match submissions to students, in the order in which they came.
 
-    An id counts where it stands by itself, not inside a longer word; of two ids, one inside the
-    other, the longer counts. Where a folder or file name holds no id, an email address of the
-    roster is taken instead, or a part between underscores that is the address up to its @ or a
+    What staff have decided comes first, then what a platform says: its id, its address, the number that a
+    column of the roster has for it, its name. Where a platform speaks, nothing that the student wrote is asked;
+    where it contradicts, that is a note. Where none speaks, the folder, the file's name and the notebook's
+    metadata count, in this order: an id that stands by itself, not inside a longer word (of two, one inside the
+    other, the longer), else an address, else a part between underscores that is the address up to its @ or a
     full name; only where one student alone has it.
 
     Parameters
@@ -74,10 +89,14 @@ def match(
         The class.
     variants : mapping, optional
         Identifier of a variant -> student id.
+    given : mapping, optional
+        Submission -> student id, where staff have decided.
     """
-    known = _Names(students)
-    owners = variants or {}
-    found = [_match(upload, known, owners) for upload in uploads]
+    names = Names(students)
+    owners = [upload.owner for upload in uploads if upload.owner is not None and upload.owner.number]
+    partly = {owner.system for owner in owners if names.id_of(owner.number) is None}
+    matcher = _Matcher(names, variants or {}, given or {}, partly)
+    found = [matcher.of(upload) for upload in uploads]
     count = Counter(item.student_id for item in found if item.student_id is not None)
     return [
         replace(item, note=_join(item.note, f"{item.student_id} has {count[item.student_id]} submissions"))
@@ -87,88 +106,96 @@ def match(
     ]
 
 
-def _match(upload: Upload, known: _Names, owners: Mapping[str, str]) -> Match:
-    *folders, file = [part for part in upload.path.replace("\\", "/").split("/") if part not in {"", ".", ".."}] or [""]
-    stem = file.rpartition(".")[0] or file
-    places = [("folder", folder) for folder in reversed(folders)] + [("file name", stem)]
-    stated = normal_id(upload.metadata)
-    owner = known.id_of(stated) or known.id_of(owners.get(stated, ""))
-    note = ""
-    for by, text in places:
-        names = known.names_in(text)
-        if len(names) == 1:
-            if owner not in {None, names[0]}:
-                note = _join(note, f"the notebook metadata name {owner}")
-            return Match(upload.submission, names[0], by, note)
-        if names:
-            note = _join(note, f"the {by} names {' and '.join(names)}")
-    if owner is not None:
-        return Match(upload.submission, owner, "notebook metadata", note)
-    return Match(upload.submission, None, "", _join(note, "it names nobody of the roster"))
+@dataclass(frozen=True)
+class _Matcher:
+    names: Names
+    variants: Mapping[str, str]
+    given: Mapping[str, str]
+    partly: Collection[str]  # systems of which not every number is an id of the roster
+
+    def of(self, upload: Upload) -> Match:
+        """Say whose an upload is, and what contradicts."""
+        owner = upload.owner or Owner()
+        notes: list[str] = []
+        if upload.submission in self.given:
+            found, by = self.given[upload.submission], STAFF
+        elif owner.system:
+            found, by, notes = self._spoken(owner)
+        else:
+            return self._silent(upload, owner.place)
+        wrote = {"the notebook metadata name": self._metadata(upload), "the file name names": self._file(upload)}
+        notes += [f"{words} {other}" for words, other in wrote.items() if other not in {None, found}]
+        return Match(upload.submission, found or None, by if found else "", _join(*notes))
+
+    def _spoken(self, owner: Owner) -> tuple[str, str, list[str]]:
+        """Ask what the platform says: (student or "", by, notes)."""
+        if owner.nobody:
+            return "", "", [owner.nobody]
+        asked = {
+            f"id in {owner.system}": self.names.known_as(owner.id),
+            f"address in {owner.system}": self.names.known_as(owner.email),
+            f"number in {owner.system}": self.names.of_account(owner.system, owner.number),
+        }
+        said = {by: one for by, one in asked.items() if one is not None}
+        people = self.names.named(owner.name)
+        numbered = self.names.id_of(owner.number) or ""
+        notes: list[str] = []
+        if len(people) == 1:
+            said[f"name in {owner.system}"] = people[0]
+        elif numbered in people or (not people and numbered and self.names.has_no_name(numbered)):
+            said[f"number in {owner.system}"] = numbered
+            if not people and owner.system in self.partly:
+                notes.append(f"only {owner.system}'s number says so, and not every such number is in the roster")
+        if not said:
+            shared = (
+                f", a name that {' and '.join(people)} share" if len(people) > 1 else ", names nobody of the roster"
+            )
+            return "", "", [f"{owner}{shared}; say whose it is with --is"]
+        by, found = next(iter(said.items()))
+        return found, by, notes + [f"the {other} is that of {one}" for other, one in said.items() if one != found]
+
+    def _silent(self, upload: Upload, place: str) -> Match:
+        """Read what stands in the folder's and the file's name, and in a notebook, where no platform speaks."""
+        *folders, _ = ["", *_parts(upload.path)]
+        inner_last = [place, *folders[2:], *folders[1:2]]  # the outermost folder may hold the whole class
+        claims = {("folder", "names"): [self.names.in_text(folder) for folder in filter(None, inner_last)]}
+        claims["file name", "names"] = [self._in_file(upload)]
+        stated = self._metadata(upload)
+        claims["notebook metadata", "name"] = [[stated]] if stated else []
+        found, by, notes = None, "", []
+        for (where, verb), texts in claims.items():
+            for names in texts:
+                if len(names) == 1 and found is None:
+                    found, by = names[0], where
+                elif names and names != [found] and not (where == "file name" and found and _by_chance(names)):
+                    notes.append(f"the {where} {verb} {' and '.join(names)}")
+        if found is None:
+            notes.append("it names nobody of the roster")
+        return Match(upload.submission, found, by, _join(*dict.fromkeys(notes)))
+
+    def _metadata(self, upload: Upload) -> str | None:
+        stated = normal_id(upload.metadata)
+        return self.names.id_of(stated) or self.names.id_of(self.variants.get(stated, ""))
+
+    def _file(self, upload: Upload) -> str | None:
+        """Return whom the file's name names plainly, where that is one student."""
+        names = self._in_file(upload)
+        return names[0] if len(names) == 1 and not _by_chance(names) else None
+
+    def _in_file(self, upload: Upload) -> list[str]:
+        file = upload.file or (_parts(upload.path) or [""])[-1]
+        stem = file.rpartition(".")[0] or file
+        names = self.names.in_text(stem)
+        copy = _COPY.search(stem)
+        return self.names.in_text(stem[: copy.start()]) if copy and {copy[1], copy[2]} & set(names) else names
 
 
-class _Names:
-    """The ids, addresses and names of a class, to be found in text."""
-
-    def __init__(self, students: Iterable[Student]) -> None:
-        self._ids: dict[str, str] = {}
-        addresses: defaultdict[str, set[str]] = defaultdict(set)
-        parts: defaultdict[str, set[str]] = defaultdict(set)
-        for student in students:
-            self._ids[student.student_id.casefold()] = student.student_id
-            address = student.email.casefold()
-            if address:
-                addresses[address].add(student.student_id)
-                parts[address.partition("@")[0]].add(student.student_id)
-            words = _WORDS.findall(_plain(student.name))
-            if len(words) > 1:  # "Ann Lee" stands as ann lee, annlee or leeann, as the system likes it
-                parts["".join(words)].add(student.student_id)
-                parts["".join(words[-1:] + words[:-1])].add(student.student_id)
-        self._addresses = _unique(addresses)
-        self._parts = _unique(parts)
-
-    def id_of(self, text: str) -> str | None:
-        return self._ids.get(text.casefold())
-
-    def names_in(self, text: str) -> list[str]:
-        """List the students that a text names: by ids, else by addresses, else by a whole part that is a name."""
-        text = unicodedata.normalize("NFC", text).casefold()
-        for names in (self._ids, self._addresses):
-            found = _longest(text, names)
-            if found:
-                return found
-        parts = {form for part in text.split("_") for form in (part, "".join(_WORDS.findall(_plain(part))))}
-        return sorted({self._parts[part] for part in parts if part in self._parts})
+def _by_chance(names: Sequence[str]) -> bool:
+    return all(len(name) < _SHORT for name in names)
 
 
-def _unique(names: Mapping[str, set[str]]) -> dict[str, str]:
-    """Keep what belongs to one student only."""
-    return {text: next(iter(ids)) for text, ids in names.items() if len(ids) == 1}
-
-
-def _longest(text: str, names: Mapping[str, str]) -> list[str]:
-    """Find names that stand by themselves in a text and inside no longer one."""
-    starts = [k for k in range(len(text)) if text[k].isalnum() and (k == 0 or not text[k - 1].isalnum())]
-    ends = [k + 1 for k in range(len(text)) if k + 1 == len(text) or text[k].isalnum() != text[k + 1].isalnum()]
-    spans = [
-        (start, end)
-        for start in starts
-        for end in ends
-        if start < end and (end == len(text) or not (text[end - 1].isalnum() and text[end].isalnum()))
-    ]
-    hits = [(start, end) for start, end in spans if text[start:end] in names]
-    kept = [
-        (start, end)
-        for start, end in hits
-        if not any(a <= start and end <= b and (a, b) != (start, end) for a, b in hits)
-    ]
-    return sorted({names[text[start:end]] for start, end in kept})
-
-
-def _plain(text: str) -> str:
-    """Write a name without accents and capitals."""
-    apart = unicodedata.normalize("NFKD", text.casefold())
-    return "".join(char for char in apart if not unicodedata.combining(char))
+def _parts(path: str) -> list[str]:
+    return [part for part in path.replace("\\", "/").split("/") if part not in {"", ".", ".."}]
 
 
 def _join(*notes: str) -> str:

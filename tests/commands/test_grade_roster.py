@@ -98,11 +98,11 @@ def test_folder_file_name_and_metadata_count_in_this_order(
     ledger = tmp_path / "release" / "staff" / "variants.csv"
     assert run("grade", tmp_path / "uploads", "-o", tmp_path / "out", *options(files, ledger=ledger))[0] == 0
     said = {name: (one.student_id, one.note, one.flag) for name, one in graded["assigned"].items()}
-    words = "Taken for the submission of {}, going by the {}."
+    words = "Whose submission this is was told by the {}."  # where there is doubt, a page names nobody
     assert said == {
-        "s1": ("s1", words.format("s1", "folder"), "The notebook metadata name s2."),
-        "x": ("s2", words.format("s2", "notebook metadata"), ""),
-        "y": ("s3", words.format("s3", "file name"), "The notebook metadata name s2."),
+        "s1": ("s1", words.format("folder"), "The notebook metadata name s2."),
+        "x": ("s2", "Taken for the submission of s2, going by the notebook metadata.", ""),
+        "y": ("s3", words.format("file name"), "The notebook metadata name s2."),
     }
     assert all(one.variant.student_id == one.student_id for one in graded["assigned"].values())
     assert graded["settings"].seed == Secret(SECRET.encode()).seed(TERM)
@@ -133,7 +133,7 @@ def test_a_roster_alone_says_whose_each_is(
     assert people["s1"].variant.identifier == "worked-example"
     assert people["s1"].others is None
     assert people[None].note == "It was not clear whose submission this is."
-    assert "1 submissions name nobody of the class: stranger." in err
+    assert "1 submission is nobody's of the class: stranger; say whose with --is stranger=ID." in err
     assert graded["settings"].seed == 0
 
 

@@ -78,7 +78,7 @@ def test_mailmerge_writes_a_table(run: Run, graded: Graded, tmp_path: Path) -> N
     ("arguments", "words"),
     [
         (("canvas", "--gradebook", "missing.csv", "-o", "new"), "missing.csv cannot be read (No such file"),
-        (("canvas", "--gradebook", "g.csv", "--is", "ann", "-o", "new"), "expected SUBMISSION=ID"),
+        (("canvas", "--gradebook", "g.csv", "--is", "ann", "-o", "new"), "expected UPLOAD=ID"),
         (("canvas", "--gradebook", "g.csv", "--assignment", "77", "--is", "ann=1", "-o", "new"), "no such submission"),
         (("canvas", "--gradebook", "g.csv", "--assignment", "77", "--is", "doejane_102=9", "-o", "new"), "the id '9'"),
         (

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from autograder.owner import Owner
 from autograder.problems.copied import Carried, Numbers
 from autograder.problems.families import family
 from autograder.problems.ledger import Ledger
@@ -26,7 +27,6 @@ CLASS = [
 PLACES = {
     "s1/slam1d.py": ("s1", "folder"),
     "class/S1/hw/slam1d.ipynb": ("s1", "folder"),
-    "s10/s1.py": ("s10", "folder"),
     "s1-b/slam1d.py": ("s1-b", "folder"),
     "hw/s1.py": ("s1", "file name"),
     "hw/slam1d_s10.final.py": ("s10", "file name"),
@@ -52,6 +52,71 @@ def test_a_place_names_a_student(path: str, whose: tuple[str | None, str]) -> No
     (found,) = match([Upload("u", path)], CLASS)
     assert (found.student_id, found.by) == whose
     assert bool(found.note) == (found.student_id is None)
+
+
+def test_a_folder_is_believed_and_what_contradicts_is_said() -> None:
+    """The folder of the course is believed before the student's own folders and files; the difference is said."""
+    place = Owner(place="s10")
+    found = match([Upload("a", "hw/s10/s1-b/zoe.py", owner=place), Upload("b", "s10/s1-b.py")], CLASS)
+    assert [(item.student_id, item.by) for item in found] == [("s10", "folder")] * 2
+    assert found[0].note == "the folder names s1-b; s10 has 2 submissions"
+    assert found[1].note == "the file name names s1-b; s10 has 2 submissions"
+
+
+ROSTER = [
+    Student("s1001", "Jane Doe", "jane@x.edu"),
+    Student("s1002", "John Roe", "john@x.edu", {"Canvas ID": "77"}),
+    Student("1", "Kim Law", "kim@x.edu"),
+    Student("4711", "Ann Lee", ""),
+    Student("4712", "Ann Lee", ""),
+    Student("s7", "Plato", "@plato:matrix.example"),
+    Student("s8", "Zoë O'Neil-Lu", "n/a"),
+    Student("s9", "", ""),
+]
+SPOKEN = {
+    "a partner's id in the file name": (Owner("Canvas", name="doejane", number="101"), "with_s1002.py", "s1001", True),
+    "Canvas's suffix": (Owner("Canvas", name="doejane", number="101"), "slam1d-1.py", "s1001", False),
+    "a number of Moodle that is somebody's id": (Owner("Moodle", name="Jane Doe", number="1"), "a.py", "s1001", False),
+    "the SID": (Owner("Gradescope", "s1001", "jane@x.edu", "J. D."), "s1002.py", "s1001", True),
+    "the address": (Owner("Gradescope", "", "john@x.edu", "Johnny"), "slam1d.py", "s1002", False),
+    "an address that is another's": (Owner("Gradescope", "s1001", "john@x.edu", ""), "slam1d.py", "s1001", True),
+    "a column of the roster": (Owner("Canvas", name="roe", number="77"), "slam1d.py", "s1002", False),
+    "that column, another system": (Owner("Moodle", name="Roe", number="77"), "slam1d.py", None, True),
+    "a shared name": (Owner("Canvas", name="leeann", number="9"), "4711.py", None, True),
+    "a shared name, numbered": (Owner("Canvas", name="leeann", number="4712"), "slam1d.py", "4712", False),
+    "one word": (Owner("Moodle", name="Plato", number="3"), "slam1d.py", "s7", False),
+    "signs and accents": (Owner("Canvas", name="oneilluzo", number="4"), "slam1d.py", "s8", False),
+    "a group before the name": (Owner("Moodle", name="Team 1-Jane Doe", number="5"), "slam1d.py", "s1001", False),
+    "blind": (Owner("Moodle", name="Participant", number="1"), "slam1d.py", None, True),
+    "no name in the roster": (Owner("Canvas", name="poecy", number="s9"), "slam1d.py", "s9", False),
+    "nothing said": (Owner("Gradescope"), "s1002.py", None, True),
+    "nobody": (Owner("Canvas", name="doejane", number="2", nobody="a test"), "slam1d.py", None, True),
+    "nbgrader's login": (Owner("nbgrader", "john"), "s1001.ipynb", "s1002", True),
+}
+
+
+@pytest.mark.parametrize(("owner", "file", "whose", "noted"), SPOKEN.values(), ids=SPOKEN.keys())
+def test_what_the_platform_says_wins(owner: Owner, file: str, whose: str | None, noted: bool) -> None:
+    """Nothing that the student wrote, and no other system's number, overrides it; a disagreement is a note."""
+    (found,) = match([Upload("u", f"s1002/submission_1/1/{file}", owner=owner)], ROSTER)
+    assert (found.student_id, bool(found.note)) == (whose, noted), found
+
+
+@given(st.sampled_from(ROSTER[:3]), st.text(max_size=20), st.sampled_from(ROSTER), st.text(max_size=9))
+def test_no_name_of_a_file_overrides_the_platform(student: Student, before: str, other: Student, after: str) -> None:
+    """Whatever a student calls the file, and whatever a notebook says, it stays theirs."""
+    owner = Owner("Gradescope", student.student_id, student.email, student.name)
+    file = f"{before}{other.student_id}{after}.py"
+    (found,) = match([Upload("u", f"e/{file}", other.student_id, owner, file)], ROSTER)
+    assert found.student_id == student.student_id
+    assert (other.student_id in found.note) == (other != student)
+
+
+def test_word_of_the_staff_comes_first() -> None:
+    """What staff have decided holds against everything."""
+    upload = Upload("u", "s1002.py", owner=Owner("Canvas", name="doejane", number="1"))
+    (found,) = match([upload], ROSTER, given={"u": "4711"})
+    assert (found.student_id, found.by) == ("4711", "word of the course staff")
 
 
 def test_metadata_come_last() -> None:

@@ -45,8 +45,9 @@ def graded_options(function: Function) -> Function:
             "--is",
             "given",
             multiple=True,
-            metavar="SUBMISSION=ID",
-            help="Whose a submission is, where it does not say; may be given again.",
+            metavar="UPLOAD=ID",
+            help="Whose row in that file a submission belongs to, where it does not say; may be given again. "
+            "`autograder grade --is` says it once and for all.",
         ),
         click.option(
             "--feedback", type=click.Choice(("full", "hint", "score")), help="[default: the course's, at this time]"
@@ -85,17 +86,6 @@ def read(path: Path, what: str) -> bytes:
         return path.read_bytes()
     except OSError as error:
         raise UsageError(f"{path} cannot be read ({error.strerror}); expected {what}.") from None
-
-
-def decisions(pairs: Iterable[str]) -> dict[str, str]:
-    """Read SUBMISSION=ID."""
-    found: dict[str, str] = {}
-    for text in pairs:
-        name, sign, number = text.rpartition("=")
-        if not sign or not name or not number:
-            raise click.UsageError(f"--is {text!r}: expected SUBMISSION=ID, such as --is jane=1017.")
-        found[name] = number
-    return found
 
 
 def write(folder: Path, files: dict[str, bytes], notes: Iterable[str]) -> None:

@@ -52,7 +52,8 @@ def command(
     autograder export canvas graded --gradebook grades.csv --assignment "1D SLAM" \\
         --submissions submissions.zip -o canvas
     """
-    from autograder.commands.export._shared import decisions, read, stored, write
+    from autograder.commands._people import decisions
+    from autograder.commands.export._shared import read, stored, write
     from autograder.exports.bundle import names_in
     from autograder.exports.canvas.feedback import feedback_archive
     from autograder.exports.canvas.gradebook import fill_gradebook

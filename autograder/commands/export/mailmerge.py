@@ -36,7 +36,8 @@ def command(
     \b
     autograder export mailmerge graded --roster class.csv -o mail.csv
     """
-    from autograder.commands.export._shared import decisions, say, stored
+    from autograder.commands._people import decisions
+    from autograder.commands.export._shared import say, stored
     from autograder.exports.mailmerge import mailmerge
     from autograder.problems.roster import read_roster
     from autograder.writing import write_whole

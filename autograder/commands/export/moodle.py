@@ -55,7 +55,8 @@ def command(
     autograder export moodle graded --worksheet sheet.csv -o moodle
     autograder export moodle graded --worksheet sheet.csv --grade-column Karakter -o moodle
     """
-    from autograder.commands.export._shared import decisions, read, stored, write
+    from autograder.commands._people import decisions
+    from autograder.commands.export._shared import read, stored, write
     from autograder.exports.moodle.feedback import feedback_archive
     from autograder.exports.moodle.worksheet import fill_worksheet
 

@@ -144,7 +144,9 @@ def _people(rows: Sequence[Row], headings: Sequence[str]) -> list[Person]:
     for row in rows:
         ids = tuple(row[column].strip() for column in columns if row[column].strip())
         name = ", ".join(row.values[:2]) if headings[0] == "LastName" else row[0]
-        people.append(Person(row.line, ids, tuple(f"{form}_{ids[0]}" for form in squeezed(name)), name))
+        people.append(
+            Person(row.line, ids, tuple(f"{form}_{ids[0]}" for form in squeezed(name)), name, f"Canvas {ids[0]}")
+        )
     return people
 
 

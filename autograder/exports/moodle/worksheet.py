@@ -120,7 +120,7 @@ def _people(sheet: Sheet, places: Columns) -> list[Person]:
         address = (row[places.email].strip(),) if places.email >= 0 else ()
         ids = (row[places.identifier].strip(), number, *address)
         download = folder_name(shown, number).removesuffix("_assignsubmission_file_")
-        people.append(Person(row.line, ids, (download,), shown))
+        people.append(Person(row.line, ids, (download,), shown, f"Moodle {number}"))
     if not people:
         raise UsageError(f"{sheet.name} has no participant; expected a line for each below the headings.")
     return people

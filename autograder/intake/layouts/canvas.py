@@ -8,8 +8,11 @@ from dataclasses import dataclass, replace
 from autograder.intake.naming import printable
 from autograder.intake.tree import Entry, Tree, is_candidate
 from autograder.intake.upload import Upload, choose, listing, strays
+from autograder.owner import Owner
 
 TITLE = "Canvas submissions.zip"
+SYSTEM = "Canvas"
+TEST_STUDENT = "studenttest"  # whom Canvas gives teachers to try a course with
 
 _NAME = r"(?:(?P<before>LATE_)?(?P<anonymous>anon_[^_]+)|(?P<name>.+?)(?P<after>_LATE)?_(?P<user>\d+))"
 _FILE = re.compile(_NAME + r"_(?P<attachment>\d{1,18})_(?P<file>.+)", re.IGNORECASE | re.DOTALL)
@@ -23,7 +26,7 @@ class _Attachment:
 
     entry: Entry
     own: Entry
-    student_id: str
+    owner: Owner
     late: bool
     number: int  # attachment ids grow with time
 
@@ -38,23 +41,23 @@ def recognise(tree: Tree) -> float:
 def gather(tree: Tree) -> list[Upload]:
     """Take the file that counts of each student; text entries and links are reported where there is no file."""
     students: dict[str, list[_Attachment]] = {}
-    others: dict[str, tuple[Entry, str]] = {}
+    others: dict[str, tuple[Entry, Owner]] = {}
     uploads: list[Upload] = []
     for entry in tree.entries:
         if found := _FILE.fullmatch(entry.name):
             own = replace(entry, parts=(found["file"],))
             late = bool(found["before"] or found["after"])
-            attachment = _Attachment(entry, own, _id(found), late, int(found["attachment"]))
+            attachment = _Attachment(entry, own, _owner(found), late, int(found["attachment"]))
             students.setdefault(_student(found), []).append(attachment)
         elif found := _ENTRY.fullmatch(entry.name):
-            others[_student(found)] = (entry, _id(found))
+            others[_student(found)] = (entry, _owner(found))
         else:
-            uploads += strays([entry])
+            uploads += strays([entry], SYSTEM)
     uploads += [_upload(student, attachments) for student, attachments in students.items()]
-    for student, (entry, student_id) in others.items():
+    for student, (entry, owner) in others.items():
         if student not in students:
             problem = "is a text or a link typed into Canvas, expected one .py, .ipynb or .zip file"
-            uploads.append(Upload(name=student, entry=entry, problem=problem, student_id=student_id))
+            uploads.append(Upload(name=student, entry=entry, problem=problem, owner=owner))
     return uploads
 
 
@@ -71,7 +74,7 @@ def _upload(student: str, attachments: list[_Attachment]) -> Upload:
         notes = (*notes, f"Graded {printable(entry.name)[:80]}, the newest; handed in before: {listing(again)}.")
     return Upload(
         student, chosen.entry if entry is not None else None, problem,
-        folder=student, notes=notes, student_id=chosen.student_id, late=chosen.late,
+        folder=student, notes=notes, owner=chosen.owner, late=chosen.late, own_name=chosen.own.name,
     )  # fmt: skip
 
 
@@ -83,5 +86,8 @@ def _student(found: re.Match[str]) -> str:
     return found["anonymous"] or f"{found['name']}_{found['user']}"
 
 
-def _id(found: re.Match[str]) -> str:
-    return (found["anonymous"] or found["user"]).removeprefix("anon_")
+def _owner(found: re.Match[str]) -> Owner:
+    number = (found["anonymous"] or found["user"]).removeprefix("anon_")
+    name = found["name"] or ""
+    nobody = "it is Canvas's Test Student, who is nobody" if name.casefold() == TEST_STUDENT else ""
+    return Owner(SYSTEM, name=name, number=number, nobody=nobody)

@@ -8,6 +8,7 @@ from autograder.intake.inside import problem_inside
 from autograder.intake.layouts import GENERIC
 from autograder.intake.tree import HANDED_OUT, Entry, Tree, is_candidate, is_noise
 from autograder.intake.upload import Upload, choose, stands_alone
+from autograder.owner import Owner
 
 TITLE = "a folder a student"
 
@@ -36,7 +37,9 @@ def gather(tree: Tree) -> list[Upload]:
             problem = entries[0].problem  # the folder itself is a link or cannot be listed
         elif at_top and not any(map(is_candidate, entries)):
             continue
-        uploads.append(Upload(name=student, entry=entry, problem=problem, folder=student, notes=notes))
+        uploads.append(
+            Upload(name=student, entry=entry, problem=problem, folder=student, notes=notes, owner=Owner(place=student))
+        )
     return uploads
 
 

@@ -10,8 +10,10 @@ from autograder.intake.layouts.folder_a_student import by_folder
 from autograder.intake.naming import printable
 from autograder.intake.tree import Entry, Tree
 from autograder.intake.upload import Upload, choose, strays
+from autograder.owner import Owner
 
 TITLE = "Gradescope export with submission_metadata.yml"
+SYSTEM = "Gradescope"
 METADATA = "submission_metadata.yml"
 MAX_METADATA = 32 << 20  # bytes; it repeats the results of every attempt
 
@@ -49,15 +51,15 @@ def gather(tree: Tree) -> list[Upload]:
         if name not in folders:
             problem = f"is listed in {METADATA}, but its folder is not there; export the submissions again"
         notes = (*notes, *trouble, *_remarks(record))
-        for student, student_id in _students(record, name):
-            upload = Upload(student, entry, problem, name, notes, student_id, submitted=record.created_at)
+        for student, owner in _students(record, name):
+            upload = Upload(student, entry, problem, name, notes, owner, submitted=record.created_at)
             before = newest.get(student)
             if before is not None:
                 older, upload = sorted((before, upload), key=lambda each: each.submitted)
                 words = f"Graded {upload.folder}, the newest; also handed in: {older.folder}."
                 upload = replace(upload, notes=(*upload.notes, words))
             newest[student] = upload
-    return [*newest.values(), *strays(entry for entry in tree.entries if entry.parts[0] not in folders)]
+    return [*newest.values(), *strays((entry for entry in tree.entries if entry.parts[0] not in folders), SYSTEM)]
 
 
 def _records(tree: Tree) -> tuple[dict[str, Record], tuple[str, ...]]:
@@ -119,15 +121,15 @@ def read_metadata(text: str) -> dict[str, Record]:
     return records
 
 
-def _students(record: Record, folder: str) -> list[tuple[str, str | None]]:
-    """Return (name, id) of every member; the folder's name where the metadata name nobody."""
-    found: list[tuple[str, str | None]] = []
+def _students(record: Record, folder: str) -> list[tuple[str, Owner]]:
+    """Return every member with a name for the submission; the folder's where the metadata name nobody."""
+    found: list[tuple[str, Owner]] = []
     for person in record.submitters:
-        number = person.get("sid") or person.get("email") or None
-        name = "_".join(filter(None, (person.get("name"), number)))
+        owner = Owner(SYSTEM, *(person.get(key, "") for key in ("sid", "email", "name")))
+        name = "_".join(filter(None, (owner.name, owner.best)))
         if name:
-            found.append((name, number))
-    return list(dict.fromkeys(found)) or [(folder, None)]
+            found.append((name, owner))
+    return list(dict.fromkeys(found)) or [(folder, Owner(SYSTEM))]
 
 
 def _remarks(record: Record) -> tuple[str, ...]:

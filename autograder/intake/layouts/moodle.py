@@ -7,10 +7,12 @@ from dataclasses import replace
 
 from autograder.intake.tree import Entry, Tree
 from autograder.intake.upload import Upload, choose, strays
+from autograder.owner import Owner
 
 TITLE = "Moodle assignment folders"
 
-_OWNER = re.compile(r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext)_?(?P<file>.*)", re.DOTALL)
+# the first mark is Moodle's; a later one stands in the name that the student gave the file
+_OWNER = re.compile(r"(?P<name>.+?)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext)_?(?P<file>.*)", re.DOTALL)
 
 
 def recognise(tree: Tree) -> float:
@@ -35,5 +37,6 @@ def gather(tree: Tree) -> list[Upload]:
     for (name, number), entries in participants.items():
         chosen, problem, notes = choose(entries)
         shown = f"{name}_{number}"
-        uploads.append(Upload(shown, chosen, problem, folder=shown, notes=notes, student_id=number))
-    return uploads + strays(entry for entry in tree.entries if not _OWNER.fullmatch(entry.parts[0]))
+        owner = Owner("Moodle", name=name, number=number)
+        uploads.append(Upload(shown, chosen, problem, folder=shown, notes=notes, owner=owner))
+    return uploads + strays((entry for entry in tree.entries if not _OWNER.fullmatch(entry.parts[0])), "Moodle")

@@ -6,6 +6,7 @@ from autograder.errors import RejectedUpload
 from autograder.intake.naming import printable
 from autograder.intake.tree import Entry, Tree, is_candidate, is_noise
 from autograder.intake.upload import Upload, choose, strays
+from autograder.owner import Owner
 
 TITLE = "nbgrader submitted/ tree"
 STEP = "submitted"
@@ -32,10 +33,11 @@ def gather(tree: Tree) -> list[Upload]:
         chosen, problem, notes = choose([entry for entry in entries if entry.name != TIMESTAMP])
         name = f"{student}-{assignment}" if several else student
         stamp = next((entry for entry in entries if entry.name == TIMESTAMP), None)
-        uploads.append(Upload(name, chosen, problem, f"{student}/{assignment}", notes, student, submitted=_time(stamp)))
+        owner = Owner("nbgrader", id=student)
+        uploads.append(Upload(name, chosen, problem, f"{student}/{assignment}", notes, owner, submitted=_time(stamp)))
     shallow = 3 if (STEP,) in tree.folders else 2
     step = [entry for entry in tree.entries if shallow == 2 or entry.parts[0] == STEP]
-    return uploads + strays(entry for entry in step if len(entry.parts) <= shallow)
+    return uploads + strays((entry for entry in step if len(entry.parts) <= shallow), "nbgrader")
 
 
 def _by_assignment(tree: Tree) -> dict[tuple[str, str], list[Entry]]:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from autograder.intake.layouts.folder_a_student import by_folder
 from autograder.intake.tree import Entry, Tree, is_candidate
 from autograder.intake.upload import Upload, choose, strays
+from autograder.owner import Owner
 
 TITLE = "a repository a student"
 
@@ -32,8 +33,8 @@ def gather(tree: Tree) -> list[Upload]:
     uploads = []
     for (top, entries), user in zip(folders.items(), users(list(folders)), strict=True):
         chosen, problem, notes = choose(_own_work(entries))
-        uploads.append(Upload(user, chosen, problem, folder=top, notes=notes, student_id=user))
-    return uploads + strays(entry for entry in tree.entries if len(entry.parts) == 1)
+        uploads.append(Upload(user, chosen, problem, folder=top, notes=notes, owner=Owner("GitHub", id=user)))
+    return uploads + strays((entry for entry in tree.entries if len(entry.parts) == 1), "GitHub")
 
 
 def users(folders: Sequence[str]) -> list[str]:
