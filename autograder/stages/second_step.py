@@ -192,11 +192,14 @@ def tolerance(states: Array, graph: PoseGraph) -> float:
     """Return how far two points may differ and still count as one [m].
 
     An error of relative size e in J moves the minimum by about sqrt(cond(H)) e |dx|, because H is
-    a square; e = 1e-7 leaves room for central differences (1e-8) and for every solver. A guard
-    H + 1e-9 I leaves 1e-9 |dx| over the smallest eigenvalue of H, and costs nothing.
+    a square; e = 1e-7 leaves room for central differences (1e-8) and for every solver. A guard of
+    1e-9, or of 1e-9 of the largest entry, on the diagonal of H costs nothing: it leaves |dx| times
+    itself over the smallest eigenvalue.
     """
-    eigenvalues = np.linalg.eigvalsh(information(graph))
-    factor = 1e-7 * np.sqrt(eigenvalues[-1] / eigenvalues[0]) + 2.2e-9 / eigenvalues[0]
+    H = information(graph)
+    eigenvalues = np.linalg.eigvalsh(H)
+    guard = 1.1e-9 * (1.0 + H.max())
+    factor = 1e-7 * np.sqrt(eigenvalues[-1] / eigenvalues[0]) + guard / eigenvalues[0]
     return float(factor * _size(states, graph))
 
 

@@ -110,12 +110,13 @@ def cases(*sizes: int, each: int = 12, seed: int = 7) -> list[Case]:
     return usual + [case for n_poses in sizes for case in unusual(rng, n_poses)]
 
 
-def pool() -> list[Case]:
-    """Return the twelve graphs at dead reckoning and at a random state, and 36 random graphs."""
+def pool(*, beyond: bool = True) -> list[Case]:
+    """Return the twelve graphs at dead reckoning and at a random state, 36 random ones, and unusual ones if asked."""
     rng = np.random.default_rng(3)
     starts = [(graph.dead_reckoning(), graph) for graph in GRAPHS.values()]
     elsewhere = [(rng.normal(scale=4.0, size=graph.n_poses), graph) for graph in GRAPHS.values()]
-    return [*starts, *elsewhere, *cases(2, 3, 4, 5, 6, 9, each=6)]
+    drawn = cases(2, 3, 4, 5, 6, 9, each=6)
+    return [*starts, *elsewhere, *(drawn if beyond else drawn[:36])]
 
 
 def systems(*sizes: int, each: int = 8, seed: int = 5) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
