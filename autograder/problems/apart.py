@@ -9,18 +9,18 @@ priors and parts, sizes of numbers, how far a state is from the minimum.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
-from autograder.problems.graphs import MAX_POSES, VARIANCES, well_posed
-from autograder.problems.irregular import jitter
+from autograder.problems.graphs import MAX_POSES, well_posed
 
 DRAWN = 8  # cases a rung, beside those of its core
-_TRIES = 40
+_MOST_NEW = 12  # poses that an edge may be split by
+_ROWS = 4  # edges that are tried
 Rungs = dict[str, tuple[Case, ...]]
 Structure = tuple[int, bytes, bytes]
 
@@ -60,21 +60,34 @@ def structure(graph: PoseGraph) -> Structure:
 
 
 def _apart(case: Case, taken: set[Structure], salt: float) -> Case | None:
-    """Change a case until its structure is free and it is well posed; None where that takes too long."""
-    x, graph = case
-    for attempt in range(_TRIES):
-        full = graph.n_poses == MAX_POSES
-        states, shape = _turned(x, graph) if full else _split(x, graph, attempt)
-        made = _renumbered(states, shape, salt)
-        free = structure(shape) not in taken
-        if free and well_posed(*made):
-            return made
-        if full or not free:
-            x, graph = states, shape
+    """Give a case another structure, one that is free, and other numbers; None where none is well posed."""
+    x, given = case
+    for states, graph in _shapes(x, given, taken):
+        for factor in (1.15 + 0.2 * salt, 1.0 / (1.15 + 0.2 * salt), 1.0):
+            made = _renumbered(states, graph, 0.8 + 0.15 * salt, factor)
+            if well_posed(*made):
+                return made
     return None
 
 
-def _turned(x: np.ndarray, graph: PoseGraph) -> Case:
+def _shapes(x: np.ndarray, graph: PoseGraph, taken: set[Structure]) -> Iterator[tuple[np.ndarray, PoseGraph]]:
+    """Give free structures: with an edge split, and split again while none is free; then with the edges in turn."""
+    grown, found = (x, graph), False
+    while not found and grown[1].n_poses < min(MAX_POSES, graph.n_poses + _MOST_NEW):
+        for row in range(0, len(grown[1].edges), 1 + len(grown[1].edges) // _ROWS):
+            split = _split(*grown, row)
+            if structure(split[1]) not in taken:
+                found = True
+                yield split
+        grown = _split(*grown, 0)
+    turned = x, graph
+    for _ in range(2 * len(graph.edges)):
+        turned = _turned(*turned)
+        if structure(turned[1]) not in taken:
+            yield turned
+
+
+def _turned(x: np.ndarray, graph: PoseGraph) -> tuple[np.ndarray, PoseGraph]:
     """Move the first edge to the end of the list, turned round: where there is no room for another pose."""
     order = np.roll(np.arange(len(graph.edges)), -1)
     edges, measured = graph.edges[order].copy(), graph.measurements[order].copy()
@@ -82,9 +95,11 @@ def _turned(x: np.ndarray, graph: PoseGraph) -> Case:
     return x, replace(graph, edges=edges, measurements=measured, edge_variances=graph.edge_variances[order])
 
 
-def _split(x: np.ndarray, graph: PoseGraph, attempt: int) -> Case:
-    """Put a new pose on an edge, numbered behind the lower of its ends, so that a walk stays a walk."""
-    row = attempt % len(graph.edges)
+def _split(x: np.ndarray, graph: PoseGraph, row: int) -> tuple[np.ndarray, PoseGraph]:
+    """Put a new pose on an edge, numbered behind the lower of its ends, so that a walk stays a walk.
+
+    Displacement, variance and error are shared out alike, so that the new pose is where it wants to be.
+    """
     i, j = graph.edges[row].tolist()
     new = min(i, j) + 1
     share = 0.4
@@ -98,7 +113,7 @@ def _split(x: np.ndarray, graph: PoseGraph, attempt: int) -> Case:
     variances = np.concatenate(
         [graph.edge_variances[:row], pieces * graph.edge_variances[row], graph.edge_variances[row + 1 :]]
     )
-    between = x[..., i] + share * (x[..., j] - x[..., i])  # so that f is shared out, too
+    between = x[..., i] + share * (x[..., j] - x[..., i])
     return np.insert(x, new, between, axis=-1), PoseGraph(
         graph.n_poses + 1,
         edges,
@@ -110,20 +125,16 @@ def _split(x: np.ndarray, graph: PoseGraph, attempt: int) -> Case:
     )
 
 
-def _renumbered(x: np.ndarray, graph: PoseGraph, salt: float) -> tuple[np.ndarray, PoseGraph]:
-    """Make all lengths shorter by a fifth at most, and every variance larger or smaller by a sixth at most."""
-    scale = 0.8 + 0.15 * salt
-    k = len(graph.edges)
-    variances = np.concatenate([graph.edge_variances, graph.prior_variances])
-    variances = np.clip(variances * (1.0 + 0.3 * jitter(len(variances), salt)), *VARIANCES)
+def _renumbered(x: np.ndarray, graph: PoseGraph, scale: float, factor: float) -> tuple[np.ndarray, PoseGraph]:
+    """Multiply all lengths, and all variances."""
     return scale * x, PoseGraph(
         graph.n_poses,
         graph.edges,
         scale * graph.measurements,
-        variances[:k],
+        factor * graph.edge_variances,
         graph.priors,
         scale * graph.prior_means,
-        variances[k:],
+        factor * graph.prior_variances,
     )
 
 
