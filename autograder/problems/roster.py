@@ -18,7 +18,11 @@ LARGEST = 16 * 2**20
 SEPARATORS = {",": "commas", ";": "semicolons", "\t": "tabs"}
 _ID = re.compile(r"\w[\w .@+-]{0,63}")
 _RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
-_SHORTENED = re.compile(r"\d[.,]\d+E\+\d+", re.IGNORECASE)
+_SHORTENED = re.compile(r"\d([.,]\d+)?E\+\d+", re.IGNORECASE)
+_MONTHS = "jan|feb|mar|mär|mrz|apr|may|mai|jun|jul|aug|sep|sept|oct|okt|nov|dec|dez"
+_DATED = re.compile(rf"\d{{1,2}}[-. ]+({_MONTHS})|({_MONTHS})[-. ]+\d{{1,4}}", re.IGNORECASE)
+_WHOLE = re.compile(r"(\d+)[.,]0")  # 20261001.0: a column that became numbers on its way
+_COLUMNS = {"e_mail": "email", "email_address": "email", "e_mail_address": "email", "studentid": "student_id"}
 
 
 @dataclass(frozen=True)
@@ -74,10 +78,14 @@ def read_roster(path: Path) -> list[Student]:
     students: list[Student] = []
     seen: dict[str, int] = {}
     for line, row in lines:
+        while len(row) > len(header) and not row[-1].strip():
+            row.pop()
         if len(row) != len(header):
             raise _error(path, line, f"it has {len(row)} columns, expected {len(header)} as in the first line")
         cells = dict(zip(columns, (cell.strip() for cell in row), strict=True))
+        cells.pop("", None)  # a column that nobody has named
         student_id = normal_id(cells.pop("student_id"))
+        student_id = whole[1] if (whole := _WHOLE.fullmatch(student_id)) else student_id
         trouble = _trouble(student_id)
         if trouble:
             raise _error(path, line, trouble)
@@ -137,12 +145,13 @@ def _columns(path: Path, header: list[str]) -> list[str]:
     """Name the columns: ours in their plain form, others as they stand."""
     plain = [re.sub(r"[\s_-]+", "_", cell.strip()).casefold() for cell in header]
     names = [
-        key if key in {"student_id", "name", "email"} else cell.strip() for key, cell in zip(plain, header, strict=True)
+        key if key in {"student_id", "name", "email"} else cell.strip()
+        for key, cell in zip((_COLUMNS.get(key, key) for key in plain), header, strict=True)
     ]
     if "student_id" not in names:
         shown = ", ".join(map(repr, names)) if names else "nothing"
         raise UsageError(f"Roster {path} has no column student_id; expected it in the first line, got {shown}.")
-    twice = [name for name in names if names.count(name) > 1]
+    twice = [name for name in names if name and names.count(name) > 1]
     if twice:
         raise _error(path, 1, f"the column {twice[0]!r} stands there twice; expected each once")
     return names
@@ -154,6 +163,8 @@ def _trouble(student_id: str) -> str:
         return "student_id is empty; expected an id, or no line at all"
     if _SHORTENED.fullmatch(student_id):
         return f"student_id {student_id!r} is a number that a spreadsheet has shortened; format the column as text"
+    if _DATED.fullmatch(student_id):
+        return f"student_id {student_id!r} is an id that a spreadsheet has made a date of; format the column as text"
     if not _ID.fullmatch(student_id):
         return (
             f"student_id {student_id!r} cannot name a folder; "

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from autograder.errors import UsageError
+from autograder.problems.naming import Names
 from autograder.problems.roster import Student, read_roster
 
 
@@ -35,6 +36,9 @@ SAME = {
     "quotes": '"student_id","name","email","section"\n"s1","Ann Lee","ann@x.edu","A"\n"s2","Bo","","B"\n',
     "blanks": "student_id , name , email , section\n s1 , Ann Lee , ann@x.edu , A \ns2,Bo,,B\n",
     "empty lines": "\n\n" + PLAIN.replace("\ns2", "\n\n,,,\ns2"),
+    "empty columns at the end": PLAIN.replace("\n", ",,\n") + ",,,,,\n",
+    "E-Mail": PLAIN.replace("email", "E-Mail"),
+    "e-mail address": PLAIN.replace("email", "E-mail address"),
     "other headings": PLAIN.replace("student_id,name,email", "Student ID,NAME,E-mail").replace("E-mail", "Email"),
 }
 
@@ -58,6 +62,19 @@ def test_only_the_id_is_needed(tmp_path: Path) -> None:
     (student,) = roster(tmp_path, 'name,student_id\n"Lee, Ann; ""A""",s1\n')
     assert student.name == 'Lee, Ann; "A"'
     assert roster(tmp_path, '"a;b;c",student_id\nx,s1\n')[0].student_id == "s1"
+
+
+def test_numbers_that_became_fractions_are_read(tmp_path: Path) -> None:
+    """A whole number with .0 behind it is that number; an id with other signs in it stays as it is."""
+    found = roster(tmp_path, "student_id\n20261001.0\n20261002,0\n".replace(",0", ".0") + "a7.0\nmarch-7\n")
+    assert [student.student_id for student in found] == ["20261001", "20261002", "a7.0", "march-7"]
+
+
+def test_a_handle_is_no_address(tmp_path: Path) -> None:
+    """A handle in the place of the address is kept as it stands, and names nobody in a file's name."""
+    students = roster(tmp_path, "student_id,name,email\ns1,Ann Lee,@ann:matrix.example\ns2,Bob Ray,b@example.edu\n")
+    assert [student.email for student in students] == ["@ann:matrix.example", "b@example.edu"]
+    assert Names(students).in_text("homework__final") == []
 
 
 def test_lines_are_counted_as_an_editor_does(tmp_path: Path) -> None:
@@ -90,6 +107,13 @@ BAD = {
     "device": ("student_id\nCon\n", "line 2: student_id 'Con' cannot name a folder on every system"),
     "dot at the end": ("student_id\ns1.\n", "cannot name a folder on every system"),
     "spreadsheet number": ("student_id\n1.23457E+11\n", "is a number that a spreadsheet has shortened"),
+    "a longer number": (
+        "student_id,name\n1E+15,Ann\n2E+15,Bob\n",
+        "'1E+15' is a number that a spreadsheet has shortened",
+    ),
+    "date": ("student_id\ns1\n12-Mar\n", "line 3: student_id '12-Mar' is an id that a spreadsheet has made a date of"),
+    "date, other order": ("student_id\nMar-12\n", "has made a date of"),
+    "whole number twice": ("student_id\n7\n7.0\n", "line 3: student_id '7' stands in line 2 already"),
     "other encoding": ("student_id,name\ns1,Müller\n".encode("latin-1"), "line 2: it is not UTF-8; save it as"),
     "zero byte": (b"student_id\ns1\ns\x002\n", "line 3: it holds a zero byte"),
     "a workbook": (b"PK\x03\x04\x14\x00\x06\x00\x08\x00\x00\x00!\x00\xb5\xd9", "line 1: it is not UTF-8"),
