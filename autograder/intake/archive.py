@@ -27,6 +27,7 @@ MAX_ARCHIVE = 20 << 20  # bytes of one student's archive
 MAX_ENTRIES = 5_000
 MAX_CLASS_ENTRIES = 50_000
 MAX_PATH = 1_024
+MAX_DEPTH = 24  # folders in each other
 CHUNK = 1 << 16
 
 _CENTRAL = b"PK\x01\x02"  # begins each line of the table of contents; there are no more entries than of these
@@ -110,6 +111,8 @@ def _path(info: zipfile.ZipInfo) -> tuple[tuple[str, ...], str]:
         return ("entry",), "has no name"
     if len(written) > MAX_PATH:
         return (parts[-1][:80],), "has a name longer than any file system takes"
+    if len(parts) > MAX_DEPTH:
+        return (parts[-1],), f"lies more than {MAX_DEPTH} folders deep"
     if "\0" in written:
         return parts, "has a name with a zero byte in it"
     if written.startswith("/") or _DRIVE.match(written):

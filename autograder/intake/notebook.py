@@ -168,6 +168,8 @@ def _parse(body: bytes) -> _Notebook:
     except msgspec.ValidationError:
         raise
     except msgspec.DecodeError:
+        if b"\\ud" not in body and b"\\uD" not in body:
+            raise
         if (mended := _SURROGATES.sub(lambda found: found[1] + (found[2] or rb"\ufffd"), body)) == body:
             raise
         return _NOTEBOOK.decode(mended)

@@ -17,7 +17,8 @@ CORE = {b"residual", b"jacobian", b"information_matrix", b"normal_equations", b"
 _OPEN = re.compile(rb"\b(\w{1,40}) is not finished yet: replace this line")  # what a stub raises, as handed out
 _DEFINED = re.compile(rb"(?:\\n|\b)def[ \t]+(\w{1,40})[ \t]*\(")
 _EXPLORE, _OF_EXPLORE = "explore", {b"residual", b"jacobian"}  # the notebook to play with defines these itself
-_LARGEST = 20 << 20  # bytes: a notebook with its outputs
+_LARGEST = 4 << 20  # bytes of a file that are looked at; one that is larger counts as begun
+_MOST = 8  # files that are looked into, so that no archive takes long
 _COMPANIONS = re.compile(r"(__init__|conftest|setup|noxfile|test_.*|.*_test)\.py", re.IGNORECASE)
 
 
@@ -64,13 +65,13 @@ def choose(entries: Sequence[Entry]) -> tuple[Entry | None, str, tuple[str, ...]
     What was begun counts: a file that defines a function of the homework, and not only as it was handed out. Two that
     were begun are for a human; where none was, the one that has the name of the homework is taken.
     """
-    candidates = [entry for entry in entries if is_candidate(entry)] or [e for e in entries if is_read(e)]
+    candidates = [entry for entry in entries if is_candidate(entry)] or [e for e in entries[:_MOST] if is_read(e)]
     if len(candidates) > 1:
         candidates = without_companions(candidates)
     if len(candidates) == 1:
         return candidates[0], "", ()
-    begun = [entry for entry in candidates if is_begun(entry)]
     named = [entry for entry in candidates if entry.stem.casefold() == HOMEWORK]
+    begun = [entry for entry in (named if len(candidates) > _MOST else candidates)[:_MOST] if is_begun(entry)]
     chosen = begun or [entry for entry in named if not _is_untouched(entry)] or named[:1]
     if len(chosen) == 1:
         others = listing([entry.name for entry in candidates if entry is not chosen[0]])
@@ -92,10 +93,12 @@ def stands_alone(entries: Sequence[Entry]) -> bool:
 
 def is_begun(entry: Entry) -> bool:
     """Say whether a file defines a function of the homework other than as it was handed out; where in doubt, yes."""
+    if entry.suffix == ".zip" or entry.problem:
+        return True
     defined, unfinished = _functions(entry)
     if entry.stem.casefold().startswith(_EXPLORE):
         unfinished = unfinished | _OF_EXPLORE
-    return entry.suffix == ".zip" or bool(defined - unfinished)
+    return bool(defined - unfinished)
 
 
 def _is_untouched(entry: Entry) -> bool:
@@ -109,6 +112,8 @@ def _functions(entry: Entry) -> tuple[set[bytes], set[bytes]]:
         data = b"" if entry.problem else entry.load(_LARGEST)
     except RejectedUpload:
         return set(), set()
+    if len(data) > _LARGEST:
+        return set(CORE), set()
     return CORE.intersection(_DEFINED.findall(data)), CORE.intersection(_OPEN.findall(data))
 
 
