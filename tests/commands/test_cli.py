@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import re
 import resource
+import shlex
 import subprocess
 import sys
 from collections.abc import Callable
@@ -113,7 +114,7 @@ def test_the_module_and_the_script_are_the_same() -> None:
 
 def test_a_reader_that_leaves_early_is_no_error(tmp_path: Path) -> None:
     """`autograder grade --help | head -1` ends quietly."""
-    code = f"{sys.executable} -m autograder grade --help | head -1"
+    code = f"{shlex.quote(sys.executable)} -m autograder grade --help | head -1"
     shown = subprocess.run(["bash", "-c", code], capture_output=True, text=True, check=True)
     assert shown.stderr == ""
 
