@@ -13,7 +13,8 @@ LINE = re.compile(r"# expect: (?P<clauses>[^;]+); (?P<sentence>[^;]+\.)")
 
 REPORTED = ("answers", "written")  # stages that judge no function: `others` does not speak of them
 CAUGHT = "caught"  # stands for any of these: the slips say what is wrong, not how much of it shows
-_CAUGHT = ("failed", "partial", "error")
+ENDED = "ended"  # as well: what recursion without a bound runs into, time or the stack, is the Python version's matter
+_ANY_OF = {CAUGHT: ("failed", "partial", "error"), ENDED: ("timeout", "memory", "error")}
 
 # Words by which a remark is known, and its kinds; a column and a row are read by one remark.
 REMARKS: Mapping[str, tuple[str, ...]] = {
@@ -137,7 +138,7 @@ def compare(wanted: Expected, verdicts: Sequence[StageVerdict], *, follow_throug
                 status, share = verdict.status, False
             if verdict.max_score == 0:
                 status, share = status.replace("partial", "failed"), False
-            came = CAUGHT if status == CAUGHT and verdict.status in _CAUGHT else verdict.status
+            came = status if verdict.status in _ANY_OF.get(status, ()) else verdict.status
             got = _text(came, verdict.slip or "", followed)
             cells.append(Cell(verdict.name, _text(status, slip, share), got))
     if wanted.others:

@@ -88,6 +88,14 @@ def test_a_slip_may_show_as_failed_partial_or_error() -> None:
     assert compare(wanted, [verdict("jacobian", "passed")])[0].fault == "miss"
 
 
+def test_what_runs_into_a_limit_may_end_in_any_way() -> None:
+    """A recursion without a bound takes all its time with one Python, and crashes the next."""
+    wanted = expected("# expect: jacobian=ended others=passed; calls itself.")
+    assert all(compare(wanted, [verdict("jacobian", way)])[0].right for way in ("timeout", "memory", "error"))
+    assert compare(wanted, [verdict("jacobian", "passed")])[0].fault == "miss"
+    assert not compare(wanted, [verdict("jacobian", "failed")])[0].right
+
+
 def test_a_wrong_cell_says_who_is_wronged() -> None:
     """A right answer refused, a wrong one accepted, and another verdict than expected are three faults."""
     assert Cell("residual", "passed", "failed").fault == "false alarm"

@@ -17,7 +17,7 @@ NUMBERS = re.compile(r"(\d+): ")
 PREFIX = "slam1d-hostile"  # begins the name of everything that a specimen tries to leave behind
 
 # Which limit is met first depends on the limits and on the machine.
-ENDED = frozenset({"error", "timeout", "memory"})
+ENDED = frozenset({"error", "timeout", "memory", "ended"})
 
 
 @dataclass(frozen=True)

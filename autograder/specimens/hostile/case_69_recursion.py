@@ -1,4 +1,4 @@
-# expect: residual=passed jacobian=timeout information_matrix=failed normal_equations=error others=missing; 69: takes the bound off recursion and calls itself, in Python and in C.
+# expect: residual=passed jacobian=ended information_matrix=failed normal_equations=error others=missing; 69: takes the bound off recursion and calls itself, in Python and in C.
 # attack: exhaustion; unlocked left out: takes memory until the machine has none.
 import sys
 
