@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import msgspec
 
 from autograder.course import Course
-from autograder.engine.corpus import Corpus
+from autograder.engine.exam import Exam
 from autograder.engine.local import LocalPool, default_workers
 from autograder.engine.messages import Answer, Grade, Orders, Trouble
 from autograder.errors import SandboxError
@@ -31,7 +31,7 @@ class Examined:
 def examine(
     sources: Sequence[Source],
     stages: Sequence[Stage],
-    corpus: Corpus,
+    exam: Exam,
     course: Course,
     on_done: Done = lambda *_: None,
     workers: int | None = None,
@@ -44,7 +44,7 @@ def examine(
         Where this machine cannot confine, or the grader failed on a source, be it only in finding words.
     """
     orders = Orders(
-        corpus=corpus.data,
+        exam=exam.data,
         stages=tuple(stage.name for stage in stages),
         points={stage.name: course.points[stage.name] for stage in stages},
         time_limit=course.time_limit,

@@ -12,7 +12,7 @@ from autograder.audit.examine import Done, Examined, examine
 from autograder.audit.expectation import Cell, compare
 from autograder.audit.matrix import Power, kill_matrix, powers
 from autograder.course import Course
-from autograder.engine.corpus import draw_corpus
+from autograder.engine.exam import draw_exam
 from autograder.stages.base import Stage
 from autograder.stages.catalogue import all_stages
 
@@ -153,7 +153,7 @@ def audit(
     """
     stages = tuple(stage for stage in all_stages() if stage.name in course.stages)
     cases = [case for case in all_cases(stages, specimens) if wanted(case)]
-    examined = examiner([case.source for case in cases], stages, draw_corpus(stages, seed, examples), course, on_done)
+    examined = examiner([case.source for case in cases], stages, draw_exam(seed, examples), course, on_done)
     pays = course.follow_through > 0
     graded = list(zip(cases, examined.verdicts, strict=True))
     rows = tuple(

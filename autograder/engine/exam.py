@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import importlib.metadata
 import platform
+import zlib
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -17,6 +18,7 @@ import msgspec
 import numpy as np
 
 from autograder.engine.corpus import Corpus, draw_corpus, load_corpus
+from autograder.engine.store import code_digest
 from autograder.errors import UsageError
 from autograder.stages.catalogue import all_stages
 from autograder.writing import write_whole
@@ -25,6 +27,7 @@ HOMEWORK = "slam1d"
 FORMAT = 1
 FILE = "exam"  # its name in the folder of a run
 _MAGIC = b"autograder exam "
+_LARGEST = 1 << 30  # bytes of a body
 _AGAIN = "draw one with `autograder exam -o FILE`"
 
 
@@ -37,6 +40,9 @@ class _Body(msgspec.Struct, frozen=True, kw_only=True):
     examples: int
     drawn_with: dict[str, str]
     corpus: bytes
+    answers: dict[str, bytes]
+    laid_out_by: str
+    layout: bytes
 
 
 @dataclass(frozen=True)
@@ -55,6 +61,11 @@ class Exam:
         The versions that drew it, for readers; nothing depends on them.
     digest : str
         SHA-256 of the body of the file.
+    answers : dict
+        For each check what a verdict needs: right answers and how far one may be off, worked out once.
+    laid_out_by, layout : str, bytes
+        The calls in the order in which they are made, and the digest of the code that laid them out: other code
+        lays them out anew.
     """
 
     homework: str
@@ -64,6 +75,9 @@ class Exam:
     drawn_with: dict[str, str]
     digest: str
     data: bytes
+    answers: dict[str, bytes]
+    laid_out_by: str
+    layout: bytes
     _cases: bytes
 
     @cached_property
@@ -87,6 +101,10 @@ def draw_exam(seed: int, examples: int) -> Exam:
     examples : int
         Cases to draw a stage, beside the fixed core.
     """
+    from autograder.engine.laid_out import laid_out  # noqa: PLC0415 - which reads exams itself
+
+    corpus = draw_corpus(tuple(all_stages()), seed, examples)
+    answers, layout = laid_out(corpus)
     body = _Body(
         homework=HOMEWORK,
         content=content_digest(),
@@ -97,9 +115,12 @@ def draw_exam(seed: int, examples: int) -> Exam:
             "numpy": np.__version__,
             "python": platform.python_version(),
         },
-        corpus=draw_corpus(tuple(all_stages()), seed, examples).data,
+        corpus=corpus.data,
+        answers=answers,
+        laid_out_by=code_digest(),
+        layout=layout,
     )
-    packed = msgspec.msgpack.encode(body)
+    packed = zlib.compress(msgspec.msgpack.encode(body), 1)
     digest = hashlib.sha256(packed).hexdigest()
     return _exam(body, digest, _MAGIC + b"%d\n%s\n" % (FORMAT, digest.encode()) + packed)
 
@@ -141,8 +162,8 @@ def exam_of(data: bytes, name: str) -> Exam:
             f"{name} is damaged: its checksum does not fit. Take another copy of the file, or remove it and {_AGAIN}."
         )
     try:
-        body = msgspec.msgpack.decode(packed, type=_Body)
-    except msgspec.MsgspecError as error:
+        body = msgspec.msgpack.decode(_unpacked(packed), type=_Body)
+    except (msgspec.MsgspecError, zlib.error) as error:
         raise UsageError(f"{name} is an exam that this autograder cannot read ({error}); {_AGAIN}.") from None
     if body.homework != HOMEWORK:
         raise UsageError(f"{name} is an exam of the homework {body.homework[:40]}, and {HOMEWORK} is graded here.")
@@ -198,5 +219,26 @@ def sizes(exam: Exam) -> dict[str, int]:
     return {stage.name: sum(map(len, exam.corpus.cases[stage.ladder.name].values())) for stage in all_stages()}
 
 
+def _unpacked(data: bytes) -> bytes:
+    """Decompress, to a bound: a file of a megabyte could hold a gigabyte of zeros."""
+    stream = zlib.decompressobj()
+    found = stream.decompress(data, _LARGEST)
+    if stream.unconsumed_tail or not stream.eof:
+        raise zlib.error("more than an exam has")
+    return found
+
+
 def _exam(body: _Body, digest: str, data: bytes) -> Exam:
-    return Exam(body.homework, body.content, body.seed, body.examples, body.drawn_with, digest, data, body.corpus)
+    return Exam(
+        homework=body.homework,
+        content=body.content,
+        seed=body.seed,
+        examples=body.examples,
+        drawn_with=body.drawn_with,
+        digest=digest,
+        data=data,
+        answers=body.answers,
+        laid_out_by=body.laid_out_by,
+        layout=body.layout,
+        _cases=body.corpus,
+    )

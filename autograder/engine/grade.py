@@ -159,7 +159,7 @@ class _Grading:
             self._take_known(self.exam)
         return msgspec.msgpack.encode(
             Orders(
-                corpus=self.exam.corpus.data,
+                exam=self.exam.data,
                 stages=tuple(stage.name for stage in self.stages),
                 points=self.points,
                 time_limit=self.settings.time_limit,

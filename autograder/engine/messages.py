@@ -13,7 +13,7 @@ from autograder.verdicts import StageVerdict
 class Orders(msgspec.Struct, frozen=True):
     """What a worker is told once: the exam and the rules."""
 
-    corpus: bytes
+    exam: bytes
     stages: tuple[str, ...]
     points: dict[str, float]
     time_limit: float

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, Literal
 
 import msgspec
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from assignment.posegraph import PoseGraph, Ranging
 from autograder.diagnosis.gallery import gallery
 from autograder.engine.corpus import Corpus
+from autograder.engine.kept import prepared_type, unpack
 from autograder.problems.apart import ladder_apart
 from autograder.problems.cases import Case, simplicity
 from autograder.problems.ladders import Rung
@@ -24,7 +26,7 @@ from autograder.stages.earlier import Answers, answers
 
 Shared = PoseGraph | Ranging
 MAX_REPLY = 8 * 1024 * 1024  # bytes that one reply may have at the most, where checks are asked together
-_GALLERY = Rung("gallery", "small cases", 0.0, ())
+GALLERY = Rung("gallery", "small cases", 0.0, ())
 SLACK = 16  # numbers that an answer may hold beyond twice the expected ones before only its shape is reported
 
 
@@ -33,14 +35,23 @@ class Task:
     """One check of one stage: its cases, its share of the points, and the batch of calls that it needs.
 
     `batch` is the number of the batch in the inputs of the sandbox. A call that several cases need
-    is made once: `asked` says for each call which one of the batch answers it.
+    is made once: `asked` says for each call which one of the batch answers it. `numbers` are those
+    of the cases' graphs. `find` gives the cases, and `answers` what the verdict needs: both are
+    wanted of few tasks only where most of a class is right.
     """
 
     stage: Stage
     rung: Rung
-    cases: tuple[Case, ...]
     batch: int
     asked: NDArray[np.int64]
+    numbers: tuple[int, ...]
+    find: Callable[[], tuple[Case, ...]] = field(repr=False)
+    answers: bytes = field(default=b"", repr=False)
+
+    @cached_property
+    def cases(self) -> tuple[Case, ...]:
+        """The arguments of the calls."""
+        return self.find()
 
     @property
     def share(self) -> float:
@@ -67,7 +78,9 @@ class Task:
 
     @cached_property
     def prepared(self) -> Any:
-        """What the verdict needs, worked out at the first use."""
+        """What the verdict needs: as the exam has it, or worked out at the first use."""
+        if self.answers:
+            return unpack(self.answers, prepared_type(self.stage))
         return self.stage.prepare(self.cases)
 
 
@@ -97,10 +110,12 @@ class Plan:
     apart: tuple[Task, ...]
     points: Mapping[str, float]
     follow_through: float
-    corpus: Corpus
     inputs: bytes
-    objects: Mapping[Shared, int] = field(repr=False)
-    _numbers: dict[int, list[int]] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def objects(self) -> Mapping[Shared, int]:
+        """The graphs and rangings of all tasks with their numbers; for calls that nobody planned."""
+        return _numbered((*self.tasks, *self.galleries, *self.apart))
 
     @cached_property
     def stages(self) -> tuple[tuple[Stage, tuple[Task, ...]], ...]:
@@ -143,68 +158,72 @@ class Plan:
 
     def second_round(self, tasks: Sequence[Task], calls: Sequence[Case]) -> frames.Batch:
         """Make the batch of a second round: new states on the graphs of the tasks' own cases, by number."""
-        numbers = [number for task in tasks for number in self._graphs_of(task)]
+        numbers = [number for task in tasks for number in task.numbers]
         cases: list[list[frames.Argument]] = [
             [frames.Array(x.shape, x.tobytes()), number] for (x, _), number in zip(calls, numbers, strict=True)
         ]
         largest = max(x.size for x, _ in calls)
         return frames.Batch(tasks[0].stage.function, tasks[0].stage.parts, 2 * largest + SLACK, cases)
 
-    def _graphs_of(self, task: Task) -> list[int]:
-        """Return the numbers of the graphs of a task's cases; looked up once, for comparing graphs takes time."""
-        known = self._numbers.get(task.batch)
-        if known is None:
-            known = [self.objects.get(graph, -1) for _, graph in task.cases]
-            self._numbers[task.batch] = known
-        return known
-
 
 def make_plan(
-    stages: Sequence[Stage], points: Mapping[str, float], corpus: Corpus, follow_through: float = 1.0
+    stages: Sequence[Stage],
+    points: Mapping[str, float],
+    corpus: Corpus,
+    follow_through: float = 1.0,
+    answers: Mapping[str, bytes] = MappingProxyType({}),
 ) -> Plan:
-    """Lay out every call of a run."""
+    """Lay out every call of a run; `answers` are those of an exam, by the keys of its checks."""
     batches: list[frames.Batch] = []
     objects: dict[Shared, int] = {}
 
-    def task(stage: Stage, rung: Rung, cases: tuple[Case, ...]) -> Task:
+    def task(stage: Stage, rung: Rung, cases: tuple[Case, ...], key: str = "") -> Task:
         calls = [call for case in cases for call in stage.calls(case)]
-        for call in calls:
-            for argument in call:
-                if isinstance(argument, PoseGraph | Ranging):
-                    objects.setdefault(argument, len(objects))
+        _number(calls, objects)
         batch = _batch(stage, calls, objects)
         first: dict[Any, int] = {}
         asked = [first.setdefault(_identity(case), len(first)) for case in batch.cases]
         once = dict(zip(asked, batch.cases, strict=True))
         batches.append(msgspec.structs.replace(batch, cases=list(once.values())))
-        return Task(stage, rung, cases, len(batches) - 1, np.array(asked))
+        numbers = tuple(objects.get(case[-1], -1) if isinstance(case[-1], PoseGraph) else -1 for case in cases)
+        return Task(stage, rung, len(batches) - 1, np.array(asked), numbers, lambda: cases, answers.get(key, b""))
 
     tasks = [
-        task(stage.facet(rung.name), rung, corpus.cases[stage.ladder.name][rung.name])
+        task(stage.facet(rung.name), rung, corpus.cases[stage.ladder.name][rung.name], key_of(stage, rung))
         for stage in stages
         for rung in stage.ladder.rungs
     ]
     bundles = _bundles(tasks, batches)
     facets = dict.fromkeys(each.stage for each in tasks)
-    galleries = [task(stage, _GALLERY, gallery(stage.ladder.name)) for stage in facets]
+    galleries = [task(stage, GALLERY, gallery(stage.ladder.name)) for stage in facets]
     apart = [
-        task(stage, rung, corpus.cases[ladder_apart(stage.ladder.name)][rung.name])
+        task(stage, rung, corpus.cases[ladder_apart(stage.ladder.name)][rung.name], key_of(stage, rung, apart=True))
         for stage in stages
         if stage.builds_on
         for rung in stage.ladder.rungs
     ]
     inputs = frames.encode_inputs(frames.Inputs(objects=[shared_data(each) for each in objects], batches=batches))
-    return Plan(
-        tasks=tuple(tasks),
-        bundles=tuple(bundles),
-        galleries=tuple(galleries),
-        apart=tuple(apart),
-        points=points,
-        follow_through=follow_through,
-        corpus=corpus,
-        inputs=inputs,
-        objects=objects,
-    )
+    return Plan(tuple(tasks), tuple(bundles), tuple(galleries), tuple(apart), points, follow_through, inputs)
+
+
+def key_of(stage: Stage, rung: Rung, *, apart: bool = False) -> str:
+    """Name a check of the exam; `apart` for what is asked by itself."""
+    return f"{stage.name}/{rung.name}{'/apart' if apart else ''}"
+
+
+def _number(calls: Iterable[Case], objects: dict[Shared, int]) -> None:
+    """Give every graph and ranging that is met for the first time the next number."""
+    for call in calls:
+        for argument in call:
+            if isinstance(argument, PoseGraph | Ranging):
+                objects.setdefault(argument, len(objects))
+
+
+def _numbered(tasks: Iterable[Task]) -> dict[Shared, int]:
+    objects: dict[Shared, int] = {}
+    for each in tasks:
+        _number((call for case in each.cases for call in each.stage.calls(case)), objects)
+    return objects
 
 
 def _bundles(tasks: Sequence[Task], batches: list[frames.Batch]) -> list[Bundle]:

@@ -15,26 +15,27 @@ import numpy as np
 from autograder.engine.answering import judge_answers, judge_written
 from autograder.engine.attempts import Attempts, only_words
 from autograder.engine.collect import Collected, collect
-from autograder.engine.corpus import case_of, load_corpus
+from autograder.engine.corpus import case_of
 from autograder.engine.describe import Describer
+from autograder.engine.exam import exam_of
 from autograder.engine.explain import explain
 from autograder.engine.follow import follow
 from autograder.engine.judge import Judge
+from autograder.engine.laid_out import plan_of_exam
 from autograder.engine.messages import Answer, Grade, Graded, Message, Orders, Ready, Trouble
-from autograder.engine.plan import Plan, make_plan
+from autograder.engine.plan import Plan
 from autograder.errors import AutograderError, SandboxLost
 from autograder.lifeline import live_with_parent
 from autograder.problems.variants import published
 from autograder.sandbox.host import Answers, Limits, Sandbox, Server
 from autograder.stages import answers, written
 from autograder.stages.answers import Sheet
-from autograder.stages.catalogue import stage
 from autograder.verdicts import StageVerdict
 
 
 def plan_of(told: Orders) -> Plan:
     """Lay out the run."""
-    return make_plan([stage(name) for name in told.stages], told.points, load_corpus(told.corpus), told.follow_through)
+    return plan_of_exam(exam_of(told.exam, "The exam"), told.stages, told.points, told.follow_through)
 
 
 def limits_of(told: Orders) -> Limits:

@@ -7,7 +7,7 @@ import numpy as np
 from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
-from autograder.stages.base import Array, ArrayStage
+from autograder.stages.base import Array, ArrayStage, Shape
 from autograder.stages.wording import beside, factor, number
 from reference_solution import slam1d
 
@@ -37,6 +37,10 @@ class InformationMatrix(ArrayStage):
     def expected(self, graph: PoseGraph) -> tuple[Array, ...]:
         """Return Omega."""
         return (slam1d.information_matrix(graph),)
+
+    def shapes(self, graph: PoseGraph) -> list[Shape]:
+        """Return (m, m)."""
+        return [(graph.n_factors, graph.n_factors)]
 
     def tolerance(self, graph: PoseGraph) -> tuple[Array, ...]:
         """Allow 1e-9 of a weight, and of the largest one where 0 is right.

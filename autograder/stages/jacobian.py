@@ -7,7 +7,7 @@ import numpy as np
 from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
-from autograder.stages.base import Array, ArrayStage
+from autograder.stages.base import Array, ArrayStage, Shape
 from autograder.stages.wording import beside, factor
 from reference_solution import slam1d
 
@@ -33,6 +33,10 @@ class Jacobian(ArrayStage):
     def expected(self, x: Array, graph: PoseGraph) -> tuple[Array, ...]:
         """Return J(x)."""
         return (slam1d.jacobian(x, graph),)
+
+    def shapes(self, x: Array, graph: PoseGraph) -> list[Shape]:
+        """Return (m, n)."""
+        return [(graph.n_factors, graph.n_poses)]
 
     def tolerance(self, x: Array, graph: PoseGraph) -> tuple[Array, ...]:
         """Allow 1e-6 an entry.

@@ -7,7 +7,7 @@ import numpy as np
 from assignment.posegraph import Ranging
 from autograder.problems.cases import Case
 from autograder.problems.ladders import RANGINGS
-from autograder.stages.base import Array, ArrayStage, Stage
+from autograder.stages.base import Array, ArrayStage, Shape, Stage
 from autograder.stages.wording import beside
 from reference_solution import slam1d
 
@@ -32,6 +32,10 @@ class RangeResidual(ArrayStage):
         """Return f."""
         return (slam1d.range_residual(x, ranging),)
 
+    def shapes(self, x: Array, ranging: Ranging) -> list[Shape]:
+        """Return (q,)."""
+        return [(len(ranging.poses),)]
+
     def tolerance(self, x: Array, ranging: Ranging) -> tuple[Array, ...]:
         """Allow 1e-9 of the numbers that a row is made of."""
         size = np.abs(x[ranging.poses]) + np.abs(ranging.beacon).sum() + ranging.ranges
@@ -53,6 +57,10 @@ class RangeJacobian(RangeResidual):
     def expected(self, x: Array, ranging: Ranging) -> tuple[Array, ...]:
         """Return J."""
         return (slam1d.range_jacobian(x, ranging),)
+
+    def shapes(self, x: Array, ranging: Ranging) -> list[Shape]:
+        """Return (q, n)."""
+        return [(len(ranging.poses), len(x))]
 
     def tolerance(self, x: Array, ranging: Ranging) -> tuple[Array, ...]:
         """Allow 1e-6 an entry: central differences pass."""

@@ -7,7 +7,7 @@ import numpy as np
 from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
-from autograder.stages.base import Array, ArrayStage
+from autograder.stages.base import Array, ArrayStage, Shape
 from autograder.stages.wording import beside, factor
 from reference_solution import slam1d
 
@@ -33,6 +33,10 @@ class Residual(ArrayStage):
     def expected(self, x: Array, graph: PoseGraph) -> tuple[Array, ...]:
         """Return f(x)."""
         return (slam1d.residual(x, graph),)
+
+    def shapes(self, x: Array, graph: PoseGraph) -> list[Shape]:
+        """Return (m,)."""
+        return [(graph.n_factors,)]
 
     def tolerance(self, x: Array, graph: PoseGraph) -> tuple[Array, ...]:
         """Allow 1e-9 of the numbers that a row adds up: far above rounding, far below four decimals."""

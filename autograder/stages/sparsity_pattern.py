@@ -7,7 +7,7 @@ import numpy as np
 from assignment.posegraph import PoseGraph
 from autograder.problems.cases import Case
 from autograder.problems.ladders import GRAPHS
-from autograder.stages.base import Array, ArrayStage
+from autograder.stages.base import Array, ArrayStage, Shape
 from autograder.stages.wording import factor
 from reference_solution import slam1d
 
@@ -41,6 +41,10 @@ class SparsityPattern(ArrayStage):
         """Return both masks as zeros and ones."""
         J_mask, H_mask = slam1d.sparsity_pattern(graph)
         return J_mask.astype(np.float64), H_mask.astype(np.float64)
+
+    def shapes(self, graph: PoseGraph) -> list[Shape]:
+        """Return (m, n) and (n, n)."""
+        return [(graph.n_factors, graph.n_poses), (graph.n_poses, graph.n_poses)]
 
     def tolerance(self, graph: PoseGraph) -> tuple[Array, ...]:
         """Allow nothing: a mask is true or false."""

@@ -16,8 +16,8 @@ from autograder.audit.table import text
 from autograder.course import Course
 from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
-from autograder.engine.corpus import Corpus
 from autograder.engine.describe import Describer
+from autograder.engine.exam import Exam
 from autograder.engine.judge import Judge
 from autograder.engine.plan import make_plan
 from autograder.sandbox.frames import Source
@@ -67,10 +67,10 @@ def test_a_clean_audit_is_one_line_and_numbers(found: Audit) -> None:
 
 
 def in_this_process(
-    sources: Sequence[Source], stages: Sequence[Stage], corpus: Corpus, course: Course, _on_done: Any
+    sources: Sequence[Source], stages: Sequence[Stage], exam: Exam, course: Course, _on_done: Any
 ) -> Examined:
     """Judge in this process, where a test can blunt a stage; submissions still run in their sandbox."""
-    plan = make_plan(stages, {stage.name: course.points[stage.name] for stage in stages}, corpus)
+    plan = make_plan(stages, {stage.name: course.points[stage.name] for stage in stages}, exam.corpus)
     judge, describer, verdicts = Judge(plan), Describer(plan), []
     with Sandbox(plan.inputs, Limits(cpu_seconds=1.0)) as sandbox:
         for source in sources:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import subprocess
 import sys
+import zlib
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,9 +18,14 @@ from autograder.course import Course
 from autograder.engine import exam as exams
 from autograder.engine.exam import Exam, draw_exam, exam_of, kept_exam, read_exam, save_exam
 from autograder.engine.grade import Settings, grade
+from autograder.engine.kept import pack
+from autograder.engine.laid_out import plan_of_exam
+from autograder.engine.plan import make_plan
 from autograder.errors import UsageError
 from autograder.intake.submission import collect
 from autograder.problems.cases import key
+from autograder.stages.catalogue import all_stages
+from autograder.stages.residual import Residual
 from tests.engine.conftest import REFERENCE
 
 COURSE = Course()
@@ -73,8 +79,8 @@ def test_a_damaged_file_is_one_sentence(data: st.DataObject) -> None:
 
 def _with(drawn: Exam, **changes: object) -> bytes:
     """Write an exam whose body says something else, with a checksum that fits."""
-    body = msgspec.msgpack.decode(drawn.data.split(b"\n", 2)[2])
-    packed = msgspec.msgpack.encode(body | changes)
+    body = msgspec.msgpack.decode(zlib.decompress(drawn.data.split(b"\n", 2)[2]))
+    packed = zlib.compress(msgspec.msgpack.encode(body | changes))
     return b"autograder exam 1\n" + hashlib.sha256(packed).hexdigest().encode() + b"\n" + packed
 
 
@@ -164,3 +170,38 @@ def test_grading_with_a_file_never_imports_hypothesis(drawn: Exam, uploads: Path
         env={"PATH": "/usr/bin:/bin", "PYTHONPATH": str(Path(exams.__file__).parents[2])},
     )
     assert done.stdout.split() == ["graded", "graded"]
+
+
+def test_the_answers_are_in_the_file(drawn: Exam) -> None:
+    """What a verdict needs comes back to the bit as it was worked out; the calls come back in their order."""
+    stages = all_stages()
+    points = {stage.name: stage.points for stage in stages}
+    fresh = make_plan(stages, points, drawn.corpus)
+    kept = plan_of_exam(exam_of(drawn.data, "x"), [stage.name for stage in stages], points, 1.0)
+    assert kept.inputs == fresh.inputs
+    assert [task.rung.name for task in kept.tasks] == [task.rung.name for task in fresh.tasks]
+    for one, other in zip((*kept.tasks, *kept.apart), (*fresh.tasks, *fresh.apart), strict=True):
+        assert one.answers
+        assert pack(one.prepared) == pack(other.prepared)
+        assert (one.batch, one.numbers, one.asked.tolist()) == (other.batch, other.numbers, other.asked.tolist())
+        assert [key(case) for case in one.cases] == [key(case) for case in other.cases]
+    for bundle, again in zip(kept.bundles, fresh.bundles, strict=True):
+        assert (bundle.batch, bundle.ends) == (again.batch, again.ends)
+    for gallery, again in zip(kept.galleries, fresh.galleries, strict=True):
+        assert (gallery.stage, gallery.batch, len(gallery.cases)) == (again.stage, again.batch, len(again.cases))
+    assert kept.objects == fresh.objects
+
+
+def test_other_code_lays_the_calls_out_anew(drawn: Exam, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A later grader makes the calls as it does, and takes cases and answers from the file."""
+    monkeypatch.setattr("autograder.engine.laid_out.code_digest", lambda: "another")
+    monkeypatch.setattr(Residual, "expected", lambda *_: pytest.fail("the answers are in the file"))
+    plan = plan_of_exam(drawn, ["residual"], {"residual": 15.0}, 1.0)
+    assert plan.tasks[0].prepared.data.size > 0
+
+
+def test_a_file_that_unfolds_without_end_is_refused(drawn: Exam, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is decompressed is bounded, whatever the file holds."""
+    monkeypatch.setattr(exams, "_LARGEST", 1000)
+    with pytest.raises(UsageError, match="cannot read"):
+        exam_of(drawn.data, "x.exam")

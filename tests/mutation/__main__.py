@@ -14,7 +14,7 @@ from pathlib import Path
 import reference_solution
 from autograder.audit.examine import examine
 from autograder.course import Course
-from autograder.engine.corpus import draw_corpus
+from autograder.engine.exam import draw_exam
 from autograder.sandbox.frames import Source
 from autograder.stages.catalogue import all_stages
 from tests.mutation.mutants import Mutant, mutants
@@ -41,7 +41,7 @@ def main() -> int:
     examined = examine(
         [Source("module", [mutant.text], f"mutant {number}") for number, mutant in enumerate(found)],
         stages,
-        draw_corpus(stages, 0, EXAMPLES),
+        draw_exam(0, EXAMPLES),
         Course(),
         lambda done, total, _: print(f"\r{done} of {total} mutants", end="", file=sys.stderr, flush=True),
     )

@@ -274,3 +274,13 @@ def test_the_explanation_of_a_wrong_answer_names_what_came(cases, name):
         words = stage.explain(case, got)
         assert words.endswith(".")
         assert len(words) < 400
+
+
+@pytest.mark.parametrize("stage", all_stages(), ids=lambda stage: stage.name)
+def test_shapes_are_those_of_the_right_answer(stage):
+    """What a stage says of its shapes without an answer is what the right answer has."""
+    for rung in stage.ladder.rungs:
+        facet = stage.facet(rung.name)
+        for case in rung.core:
+            for call in facet.calls(case):
+                assert facet.shapes(*call) == [array.shape for array in facet.expected(*call)]
