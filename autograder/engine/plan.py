@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -15,19 +14,18 @@ from numpy.typing import NDArray
 
 from assignment.posegraph import PoseGraph, Ranging
 from autograder.diagnosis.gallery import gallery
+from autograder.engine.carrying import SLACK, Shared, batch_of, identity, joined, shared_data, table_of
 from autograder.engine.corpus import Corpus
 from autograder.engine.kept import prepared_type, unpack
 from autograder.problems.apart import ladder_apart
 from autograder.problems.cases import Case, simplicity
 from autograder.problems.ladders import Rung
-from autograder.sandbox import carried, frames
+from autograder.sandbox import frames
 from autograder.stages.base import Stage
-from autograder.stages.earlier import Answers, answers
+from autograder.stages.earlier import answers
 
-Shared = PoseGraph | Ranging
 MAX_REPLY = 8 * 1024 * 1024  # bytes that one reply may have at the most, where checks are asked together
 GALLERY = Rung("gallery", "small cases", 0.0, ())
-SLACK = 16  # numbers that an answer may hold beyond twice the expected ones before only its shape is reported
 
 
 @dataclass(frozen=True)
@@ -150,11 +148,11 @@ class Plan:
         """What the earlier functions answer for the graphs of `apart`; made when it is first needed."""
         calls = (call for task in self.apart for case in task.cases for call in task.stage.calls(case))
         graphs = dict.fromkeys(argument for call in calls for argument in call if isinstance(argument, PoseGraph))
-        return [_table(each, self.objects) for each in answers(tuple(graphs))]
+        return [table_of(each, self.objects) for each in answers(tuple(graphs))]
 
     def batch(self, stage: Stage, calls: Sequence[Case]) -> frames.Batch:
         """Make a batch of calls that can be sent as it is; graphs of the corpus go by number."""
-        return _batch(stage, calls, self.objects)
+        return batch_of(stage, calls, self.objects)
 
     def second_round(self, tasks: Sequence[Task], calls: Sequence[Case]) -> frames.Batch:
         """Make the batch of a second round: new states on the graphs of the tasks' own cases, by number."""
@@ -180,9 +178,9 @@ def make_plan(
     def task(stage: Stage, rung: Rung, cases: tuple[Case, ...], key: str = "") -> Task:
         calls = [call for case in cases for call in stage.calls(case)]
         _number(calls, objects)
-        batch = _batch(stage, calls, objects)
+        batch = batch_of(stage, calls, objects)
         first: dict[Any, int] = {}
-        asked = [first.setdefault(_identity(case), len(first)) for case in batch.cases]
+        asked = [first.setdefault(identity(case), len(first)) for case in batch.cases]
         once = dict(zip(asked, batch.cases, strict=True))
         batches.append(msgspec.structs.replace(batch, cases=list(once.values())))
         numbers = tuple(objects.get(case[-1], -1) if isinstance(case[-1], PoseGraph) else -1 for case in cases)
@@ -232,7 +230,7 @@ def _bundles(tasks: Sequence[Task], batches: list[frames.Batch]) -> list[Bundle]
     open_tasks: list[Task] = []
 
     def close() -> None:
-        joint = _joined([batches[task.batch] for task in open_tasks])
+        joint = joined([batches[task.batch] for task in open_tasks])
         ends = np.cumsum([len(batches[task.batch].cases) for task in open_tasks]).tolist()
         bundles.append(Bundle(tuple(open_tasks), len(batches), tuple(ends)))
         batches.append(joint)
@@ -241,78 +239,10 @@ def _bundles(tasks: Sequence[Task], batches: list[frames.Batch]) -> list[Bundle]
     for task in tasks:
         if open_tasks:
             same = open_tasks[-1].stage is task.stage
-            joint = _joined([batches[each.batch] for each in (*open_tasks, task)])
+            joint = joined([batches[each.batch] for each in (*open_tasks, task)])
             if not same or frames.reply_bound(joint) > MAX_REPLY:
                 close()
         open_tasks.append(task)
     if open_tasks:
         close()
     return bundles
-
-
-def _joined(batches: Sequence[frames.Batch]) -> frames.Batch:
-    return frames.Batch(
-        function=batches[0].function,
-        parts=batches[0].parts,
-        max_elements=max(batch.max_elements for batch in batches),
-        cases=[case for batch in batches for case in batch.cases],
-    )
-
-
-def _batch(stage: Stage, calls: Sequence[Case], objects: Mapping[Shared, int]) -> frames.Batch:
-    largest = max((math.prod(shape) for call in calls for shape in stage.shapes(*call)), default=0)
-    return frames.Batch(
-        function=stage.function,
-        parts=stage.parts,
-        max_elements=2 * largest + SLACK,
-        cases=[[_argument(argument, objects) for argument in call] for call in calls],
-    )
-
-
-def _identity(case: Sequence[frames.Argument]) -> Any:
-    """Tell calls apart: graphs of the corpus go by number, arrays by shape and bytes."""
-    return tuple((each.shape, each.data) if isinstance(each, frames.Array) else each for each in case)
-
-
-def _argument(argument: Any, objects: Mapping[Shared, int]) -> frames.Argument:
-    if isinstance(argument, PoseGraph | Ranging):
-        known = objects.get(argument)
-        return shared_data(argument) if known is None else known
-    return _array(argument)
-
-
-def _table(known: Answers, objects: Mapping[Shared, int]) -> frames.Table:
-    """Turn what a function answers into a table for the sandbox; graphs go by number."""
-    entries = [
-        carried.Entry(
-            [_argument(each, objects) for each in key],
-            [carried.Part(_array(constant), None if factor is None else _array(factor)) for constant, factor in parts],
-        )
-        for key, parts in known.rows
-    ]
-    shapes: list[Literal["", "column", "row"]] = [""] * len(known.rows[0][1])
-    return frames.Table(known.function, list(known.places), known.vector, shapes, "array", entries)
-
-
-def _array(values: np.ndarray) -> frames.Array:
-    return frames.Array(values.shape, np.asarray(values, dtype="<f8").tobytes())
-
-
-def shared_data(graph: Shared) -> frames.GraphData | frames.RangingData:
-    """Turn a graph or a ranging into bytes for the sandbox."""
-    if isinstance(graph, Ranging):
-        return frames.RangingData(
-            beacon=graph.beacon.astype("<f8").tobytes(),
-            poses=graph.poses.astype("<i8").tobytes(),
-            ranges=graph.ranges.astype("<f8").tobytes(),
-            variances=graph.variances.astype("<f8").tobytes(),
-        )
-    return frames.GraphData(
-        n_poses=graph.n_poses,
-        edges=graph.edges.astype("<i8").tobytes(),
-        measurements=graph.measurements.astype("<f8").tobytes(),
-        edge_variances=graph.edge_variances.astype("<f8").tobytes(),
-        priors=graph.priors.astype("<i8").tobytes(),
-        prior_means=graph.prior_means.astype("<f8").tobytes(),
-        prior_variances=graph.prior_variances.astype("<f8").tobytes(),
-    )
