@@ -139,20 +139,21 @@ class _Matcher:
         said = {by: one for by, one in asked.items() if one is not None}
         people = self.names.named(owner.name)
         numbered = self.names.id_of(owner.number) or ""
-        notes: list[str] = []
         if len(people) == 1:
             said[f"name in {owner.system}"] = people[0]
-        elif numbered in people or (not people and numbered and self.names.has_no_name(numbered)):
+        elif numbered in people or (not people and self._by_number(owner.system, numbered)):
             said[f"number in {owner.system}"] = numbered
-            if not people and owner.system in self.partly:
-                notes.append(f"only {owner.system}'s number says so, and not every such number is in the roster")
         if not said:
             shared = (
                 f", a name that {' and '.join(people)} share" if len(people) > 1 else ", names nobody of the roster"
             )
             return "", "", [f"{owner}{shared}; say whose it is with --is"]
         by, found = next(iter(said.items()))
-        return found, by, notes + [f"the {other} is that of {one}" for other, one in said.items() if one != found]
+        return found, by, [f"the {other} is that of {one}" for other, one in said.items() if one != found]
+
+    def _by_number(self, system: str, numbered: str) -> bool:
+        """Say whether a roster without names is one of this system's numbers: it knows all that have come."""
+        return bool(numbered) and system not in self.partly and self.names.has_no_name(numbered)
 
     def _silent(self, upload: Upload, place: str) -> Match:
         """Read what stands in the folder's and the file's name, and in a notebook, where no platform speaks."""

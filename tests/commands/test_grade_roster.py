@@ -137,6 +137,41 @@ def test_a_roster_alone_says_whose_each_is(
     assert graded["settings"].seed == 0
 
 
+def test_word_of_the_staff_is_remembered(
+    run: Callable[..., Ended], files: dict[str, Path], graded: dict[str, Any], tmp_path: Path
+) -> None:
+    """What --is says holds in later runs until it is taken back; a slip in it is refused, and changes nothing."""
+    (tmp_path / "uploads" / "Plato_17_assignsubmission_file_slam1d.py").write_text("x = 1\n")
+    command = ("grade", tmp_path / "uploads", "-o", tmp_path / "out", "--roster", files["--roster"])
+
+    def whose(*more: object) -> tuple[str | None, str]:
+        assert run(*command, *more)[0] == 0
+        (one,) = graded["assigned"].values()
+        return one.student_id, one.by
+
+    assert whose() == (None, "")
+    assert whose("--is", "Plato_17=S2") == ("s2", "word of the course staff")
+    assert (tmp_path / "out" / "owners.csv").read_text() == "submission,student_id\nPlato_17,s2\n"
+    assert whose() == ("s2", "word of the course staff")
+    for wrong, words in {"Plato_17=s22": "nobody with the id 's22'", "Plato=s2": "no submission 'Plato'"}.items():
+        code, _, err = run(*command, "--is", wrong)
+        assert (code, words in err, err.count("\n")) == (2, True, 1)
+    assert whose("--is", "Plato_17=") == (None, "")
+    assert whose() == (None, "")
+
+
+def test_a_number_of_the_platform_is_nobodys_id_where_nobody_is_known(
+    run: Callable[..., Ended], files: dict[str, Path], graded: dict[str, Any], tmp_path: Path
+) -> None:
+    """A participant who is not of the roster does not get the id of somebody who is; another roster is said."""
+    files["--roster"].write_text("student_id,name\n17,Kim Law\n")
+    (tmp_path / "uploads" / "Plato_17_assignsubmission_file_slam1d.py").write_text("x = 1\n")
+    _, _, err = run("grade", tmp_path / "uploads", "-o", tmp_path / "out", "--roster", files["--roster"])
+    (one,) = graded["assigned"].values()
+    assert (one.student_id, one.free, one.account) == (None, False, "Moodle 17")
+    assert "is it the roster of this class?" in err
+
+
 def test_a_student_without_a_variant_is_flagged(
     run: Callable[..., Ended], files: dict[str, Path], graded: dict[str, Any], tmp_path: Path
 ) -> None:
