@@ -4,7 +4,7 @@ import os
 
 from hypothesis import HealthCheck, settings
 
-from autograder.engine.attempts import STRICT
+from autograder.attempts import STRICT
 
 os.environ[STRICT] = "1"  # workers too: an explanation that fails fails the test
 

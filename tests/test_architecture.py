@@ -20,6 +20,7 @@ verdicts           -> nothing
 posegraph          -> nothing
 writing            -> errors
 lifeline           -> nothing
+attempts           -> errors, verdicts
 reference_solution -> nothing
 assignment         -> posegraph
 problems           -> posegraph, lifeline, owner, writing, errors
@@ -30,9 +31,9 @@ course             -> stages, errors
 diagnosis          -> posegraph, stages, problems, verdicts
 render             -> stages, problems, posegraph, errors
 engine             -> posegraph, stages, diagnosis, problems, sandbox, intake, course, verdicts, writing, lifeline,
-                      errors
+                      attempts, errors
 marking            -> course, verdicts, writing, errors
-reports            -> verdicts, marking, render.figure, render.formula, writing, errors
+reports            -> verdicts, attempts, marking, render.figure, render.formula, writing, errors
 exports            -> render, stages, problems, posegraph, reports, verdicts, writing, errors
 desk               -> reports, marking, course, verdicts, errors
 audit              -> errors, verdicts, course, assignment, reference_solution, sandbox.frames, intake, engine,
@@ -213,7 +214,7 @@ def test_a_broken_arrow_is_seen(tmp_path: Path, room: str, text: str) -> None:
         (
             "autograder.reports.html",
             "import autograder.render.stub",
-            "reports may import errors, marking, render.figure, render.formula, verdicts, writing",
+            "reports may import attempts, errors, marking, render.figure, render.formula, verdicts, writing",
         ),
         ("autograder.__init__", "import autograder.errors", "autograder/__init__.py may import nothing of ours"),
         ("autograder.attic.old", "", "There is a room `attic`, which the table does not know"),

@@ -13,6 +13,7 @@ import traceback
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,17 +39,22 @@ class Graded:
 
 def main(arguments: Sequence[str]) -> int:
     """Grade what lies below ROOT; 0 where results.json holds the marks, 3 where it says that there are none."""
+    from autograder.attempts import Attempts
     from autograder.exports.gradescope.archive import read_rules
     from autograder.exports.gradescope.results import results_json
+    from autograder.reports.drawable import without_cases
     from autograder.writing import write_whole
 
     root = Path(arguments[0]).resolve()
     try:
         rules = read_rules(root / "source" / "rules.json")
         graded = grade_submission(root, rules)
-        data = results_json(
-            graded.result, graded.policy, visibility=rules.visibility, course=graded.course, notes=graded.notes
+        written = partial(
+            results_json, policy=graded.policy, visibility=rules.visibility, course=graded.course, notes=graded.notes
         )
+        attempt = Attempts()
+        data = attempt("writing its cases", written, graded.result) or written(without_cases(graded.result))
+        print(*attempt.flags, sep="\n", end="", file=sys.stderr)
         (root / "results").mkdir(exist_ok=True)
         write_whole(root / "results" / "results.json", data)
     except Exception:  # noqa: BLE001 - the last resort: run_autograder has left a results.json that says so

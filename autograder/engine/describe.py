@@ -10,8 +10,8 @@ from collections.abc import Sequence
 import numpy as np
 from msgspec.structs import replace
 
+from autograder.attempts import Attempts
 from autograder.diagnosis.recognise import CLOSE, COARSE, Given, Recogniser
-from autograder.engine.attempts import Attempts
 from autograder.engine.collect import Absent, Collected, Reply
 from autograder.engine.evidence import plainly, simplest
 from autograder.engine.groups import digest

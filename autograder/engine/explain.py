@@ -13,9 +13,9 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from msgspec.structs import replace
 
+from autograder.attempts import Attempts
 from autograder.diagnosis.facts import Answered, facts
 from autograder.diagnosis.probes import Values, derivative_probe, probes, remembers
-from autograder.engine.attempts import Attempts
 from autograder.engine.collect import Reply, ask
 from autograder.engine.describe import swapped
 from autograder.engine.follow import EARLIER, STAGE

@@ -12,8 +12,8 @@ from multiprocessing.connection import Connection
 import msgspec
 import numpy as np
 
+from autograder.attempts import Attempts, only_words
 from autograder.engine.answering import judge_answers, judge_written
-from autograder.engine.attempts import Attempts, only_words
 from autograder.engine.collect import Collected, collect
 from autograder.engine.corpus import case_of
 from autograder.engine.describe import Describer

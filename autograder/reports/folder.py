@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from autograder.reports.feedback import Policy, feedback_page
+from autograder.reports.drawable import drawable
+from autograder.reports.feedback import Policy
 from autograder.reports.gradebook import write_gradebook
 from autograder.reports.overview import class_page
 from autograder.verdicts import Result
@@ -42,6 +43,9 @@ def write_reports(
     pages = out / "feedback"
     make_private(pages)
     write_gradebook(results, out / "grades.csv", stages)
+    shown = []
     for result in results:
-        write_whole(pages / f"{result.submission}.html", feedback_page(result, feedback, course).encode())
-    write_whole(out / "report.html", class_page(results, record, course).encode())
+        drawn, text = drawable(result, feedback, course)
+        shown.append(drawn)
+        write_whole(pages / f"{result.submission}.html", text.encode())
+    write_whole(out / "report.html", class_page(shown, record, course).encode())

@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
+from autograder.attempts import Attempts
 from autograder.audit import Audit, audit
 from autograder.audit.cases import KINDS, all_cases
 from autograder.audit.examine import Examined
 from autograder.audit.table import text
 from autograder.course import Course
-from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
 from autograder.engine.describe import Describer
 from autograder.engine.exam import Exam

@@ -4,7 +4,7 @@ import inspect
 
 import pytest
 
-from autograder.engine.attempts import Attempts
+from autograder.attempts import Attempts
 from autograder.engine.collect import collect
 from autograder.engine.corpus import draw_corpus
 from autograder.engine.describe import Describer

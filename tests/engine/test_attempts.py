@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from autograder.attempts import STRICT, only_words
 from autograder.engine import describe, explain, worker
-from autograder.engine.attempts import STRICT, only_words
 from autograder.engine.messages import Grade, Graded, Trouble
 from autograder.engine.worker import Examiner
 from autograder.reports.feedback import feedback_page

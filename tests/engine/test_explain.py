@@ -2,8 +2,8 @@
 
 import pytest
 
+from autograder.attempts import Attempts
 from autograder.diagnosis.gallery import gallery
-from autograder.engine.attempts import Attempts
 from autograder.engine.collect import collect
 from autograder.engine.describe import Describer
 from autograder.engine.explain import explain, wants_explanation

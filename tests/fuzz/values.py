@@ -22,7 +22,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from autograder.engine.attempts import STRICT
+from autograder.attempts import STRICT
 from autograder.exports.gradescope.results import results_json
 from autograder.verdicts import decode
 from tests.fuzz.anything import ARGUMENTS, PARTS, REPORTED, Behaviour, Drawn, Value, drawn

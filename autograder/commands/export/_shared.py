@@ -33,9 +33,9 @@ class Graded:
 
     def pages(self) -> dict[str, bytes]:
         """Return everybody's page, with the marks that are exported."""
-        from autograder.reports.feedback import feedback_page
+        from autograder.reports.drawable import drawable
 
-        return {one.submission: feedback_page(one, self.policy, self.course).encode() for one in self.results}
+        return {one.submission: drawable(one, self.policy, self.course)[1].encode() for one in self.results}
 
 
 def graded_options(function: Function) -> Function:

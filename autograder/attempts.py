@@ -28,7 +28,7 @@ class Attempts:
     """
 
     def __init__(self) -> None:
-        self.failed: list[str] = []
+        self.failed: dict[str, None] = {}  # in order, each once
 
     def __call__(
         self, what: str, step: Callable[_Given, _Words], *given: _Given.args, **named: _Given.kwargs
@@ -47,7 +47,7 @@ class Attempts:
         except Exception as error:
             if os.environ.get(STRICT):
                 raise
-            self.failed.append(f"{what} failed ({type(error).__name__}: {error})")
+            self.failed[f"{what} failed ({type(error).__name__}: {error})"] = None
             return None
 
     @property
