@@ -9,8 +9,7 @@ from pathlib import Path
 import assignment
 import autograder
 import reference_solution
-from autograder.audit.expectation import CAUGHT, Expected, expected
-from autograder.engine import follow
+from autograder.audit.expectation import CAUGHT, KEPT, Expected, expected
 from autograder.errors import UsageError
 from autograder.intake.submission import Submission, collect
 from autograder.sandbox.frames import Source
@@ -87,12 +86,11 @@ def _source(found: Submission) -> Source:
 
 
 def _slip(stage: Stage, stages: Sequence[Stage], slip: Slip) -> Case:
-    """Demand that a slip is named at its own stage, and costs no stage that does not use its function."""
-    used_by_step = stage.function in follow.EARLIER
+    """Demand that a slip is named at its own stage, and costs no other that calls another function."""
     spared = {
-        other.name: ("passed", "", False)
+        other.name: (KEPT if stage.name in other.builds_on else "passed", "", False)
         for other in stages
-        if other.function != stage.function and not (used_by_step and other.function == follow.STAGE)
+        if other.function != stage.function
     }
     wanted = Expected(stages={**spared, stage.name: (CAUGHT, slip.identifier, False)}, sentence=slip.name)
     text = submission_text(slip, stage.function)

@@ -15,6 +15,7 @@ REPORTED = ("answers", "written")  # stages that judge no function: `others` doe
 CAUGHT = "caught"  # stands for any of these: the slips say what is wrong, not how much of it shows
 ENDED = "ended"  # as well: what recursion without a bound runs into, time or the stack, is the Python version's matter
 _ANY_OF = {CAUGHT: ("failed", "partial", "error"), ENDED: ("timeout", "memory", "error")}
+KEPT = "kept"  # passed, or right by itself in every check: a mistake elsewhere has cost nothing here
 
 # Words by which a remark is known, and its kinds; a column and a row are read by one remark.
 REMARKS: Mapping[str, tuple[str, ...]] = {
@@ -75,7 +76,7 @@ class Cell:
         """Name what went wrong: a right answer refused, a wrong one accepted, or another verdict than expected."""
         if self.right:
             return ""
-        passed = [text.split(":")[0] == "passed" for text in (self.expected, self.got)]
+        passed = [text.split(":")[0] in ("passed", KEPT) for text in (self.expected, self.got)]
         if passed[0] == passed[1]:
             return "misjudged"
         return "false alarm" if passed[0] else "miss"
@@ -133,8 +134,12 @@ def compare(wanted: Expected, verdicts: Sequence[StageVerdict], *, follow_throug
     for verdict in verdicts:
         if verdict.name in wanted.stages or (wanted.others and not verdict.bonus and verdict.name not in REPORTED):
             status, slip, share = wanted.stages.get(verdict.name, (wanted.others, "", False))
+            if status == KEPT:
+                kept = _is_kept(verdict) or verdict.max_score == 0 or not follow_through
+                cells.append(Cell(verdict.name, KEPT, KEPT if kept else verdict.status))
+                continue
             followed = any(not check.passed and check.points > 0 for check in verdict.checks)
-            if share and not follow_through and {status, verdict.status} <= {"partial", "failed"}:
+            if share and not follow_through and {status, verdict.status} <= {*_ANY_OF[CAUGHT]}:
                 status, share = verdict.status, False
             if verdict.max_score == 0:
                 status, share = status.replace("partial", "failed"), False
@@ -144,6 +149,10 @@ def compare(wanted: Expected, verdicts: Sequence[StageVerdict], *, follow_throug
     if wanted.others:
         cells.append(_remarks(wanted, verdicts))
     return cells
+
+
+def _is_kept(verdict: StageVerdict) -> bool:
+    return verdict.status == "passed" or all(check.passed or check.points > 0 for check in verdict.checks)
 
 
 def _text(status: str, slip: str, share: bool) -> str:

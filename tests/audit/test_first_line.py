@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from autograder.audit.expectation import CAUGHT, Cell, Expected, compare, expected
+from autograder.audit.expectation import CAUGHT, KEPT, Cell, Expected, compare, expected
 from autograder.verdicts import CheckVerdict, StageVerdict
 
 BROKEN = (
@@ -94,6 +94,25 @@ def test_what_runs_into_a_limit_may_end_in_any_way() -> None:
     assert all(compare(wanted, [verdict("jacobian", way)])[0].right for way in ("timeout", "memory", "error"))
     assert compare(wanted, [verdict("jacobian", "passed")])[0].fault == "miss"
     assert not compare(wanted, [verdict("jacobian", "failed")])[0].right
+
+
+def test_a_step_is_kept_where_it_is_passed_or_right_by_itself() -> None:
+    """A mistake in an earlier function must cost the step nothing; a course that pays no share cannot show that."""
+    wanted = Expected(stages={"second_step": (KEPT, "", False)})
+    assert compare(wanted, [verdict("second_step", "passed")])[0].right
+    by_itself = StageVerdict(name="second_step", status="partial", score=8.0, max_score=10.0, checks=checks(4.0, 4.0))
+    in_part = StageVerdict(name="second_step", status="partial", score=4.0, max_score=10.0, checks=checks(4.0, 0.0))
+    assert compare(wanted, [by_itself])[0].right
+    assert compare(wanted, [in_part])[0].fault == "false alarm"
+    assert compare(wanted, [in_part], follow_through=False)[0].right
+
+
+def checks(*earned: float) -> tuple[CheckVerdict, ...]:
+    """Make failed checks that earned so many of 5 points."""
+    return tuple(
+        CheckVerdict(name=str(place), passed=False, points=each, max_points=5.0, cases=1)
+        for place, each in enumerate(earned)
+    )
 
 
 def test_a_wrong_cell_says_who_is_wronged() -> None:
