@@ -112,7 +112,12 @@ class Results:
     def _flags(self, submission: Submission, answer: Graded) -> tuple[str, ...]:
         """Say, to staff only, what is odd about whose it is, and where it carries the numbers of somebody else."""
         assigned = self.assigned[submission.id]
-        odd = (*((assigned.flag,) if assigned.flag else ()), *_of_several(answer.in_vain), *answer.flags)
+        odd = (
+            *((assigned.flag,) if assigned.flag else ()),
+            *submission.flags,
+            *_of_several(answer.in_vain),
+            *answer.flags,
+        )
         if assigned.others is None or submission.source is None:
             return odd
         carried = assigned.others.in_text(assigned.student_id, "\n".join(submission.source.cells))

@@ -145,7 +145,7 @@ class Examiner:
             if self.plan.has(mark.name) and mark.status != "passed"
         }
         fates = collected.loaded.fates
-        return tuple(fates[name].message for name in sorted(lost & fates.keys()) if fates[name].tried)
+        return tuple(fates[name].message for name in sorted(lost & fates.keys()) if fates[name].written)
 
 
 def _sheet(job: Grade) -> Sheet:

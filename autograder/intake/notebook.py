@@ -30,6 +30,7 @@ _SURROGATES = re.compile(rb"(?<!\\)((?:\\\\)*)(?:(%b%b)|%b|%b)" % (_HIGH, _LOW, 
 _OLD_FORMAT = "is a notebook of format {}, expected 4; open it in a current Jupyter, save it and hand it in again"
 
 
+_WITHOUT_ENDS = "is a list of lines without line ends; they were put one below the other"
 _UNREADABLE = "has no readable text (expected a text or a list of lines) and was taken as empty"
 
 
@@ -85,6 +86,8 @@ class Notebook:
     pictures: Mapping[str, str] = field(default_factory=dict)
     labels: tuple[str, ...] = ()
     """What each code cell is called: its place among all cells, and the number that Jupyter shows beside it."""
+    flags: tuple[str, ...] = ()
+    """What a human should look at: cells that were not read as they are written."""
 
 
 def read_notebook(data: bytes) -> Notebook:
@@ -96,12 +99,15 @@ def read_notebook(data: bytes) -> Notebook:
     version = _version(notebook.nbformat)
     cells = _cells(notebook, version)
     code, labels, notes = _code(cells)
+    flags = [note for note in notes if _UNREADABLE in note or _WITHOUT_ENDS in note][:1]
     if not code:
         notes.append("The notebook has no code cell.")
     if version not in ("3", "4"):
         notes.append(f"The notebook names its format {version!r}, not 4; its cells were read all the same.")
     markdown, pictures = _markdown(cells)
-    return Notebook(tuple(code), tuple(markdown), tuple(notes), _variant(notebook.metadata), pictures, tuple(labels))
+    return Notebook(
+        tuple(code), tuple(markdown), tuple(notes), _variant(notebook.metadata), pictures, tuple(labels), tuple(flags)
+    )
 
 
 def _cells(notebook: _Notebook, version: str) -> list[_Cell]:
@@ -262,5 +268,5 @@ def _text(cell: _Cell) -> tuple[str, str]:
     if isinstance(source, str):
         return one_newline(source), ""
     if len(source) > 1 and all(line.splitlines() == [line] for line in source if line):
-        return one_newline("\n".join(source)), "is a list of lines without line ends; they were put one below the other"
+        return one_newline("\n".join(source)), _WITHOUT_ENDS
     return one_newline("".join(source)), ""

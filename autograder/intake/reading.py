@@ -25,6 +25,7 @@ class Content:
     notes: tuple[str, ...] = ()
     variant: str = ""
     pictures: Mapping[str, str] = field(default_factory=dict)
+    flags: tuple[str, ...] = ()
 
 
 def read_entry(entry: Entry) -> Content:
@@ -58,7 +59,7 @@ def digest(source: Source) -> str:
 def _read_notebook(data: bytes, name: str) -> Content:
     notebook = read_notebook(data)
     source = Source("notebook", list(notebook.code), printable(name), list(notebook.labels))
-    return Content(source, notebook.markdown, notebook.notes, notebook.variant, notebook.pictures)
+    return Content(source, notebook.markdown, notebook.notes, notebook.variant, notebook.pictures, notebook.flags)
 
 
 def _read_archive(data: bytes) -> Content:

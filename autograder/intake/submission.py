@@ -36,6 +36,8 @@ class Submission:
         The text to execute in the sandbox; None where the upload was rejected.
     rejection : str
         One sentence that says why there is no source; "" where there is one.
+    flags : tuple of str
+        What of its reading a human should look at.
     notes : tuple of str
         What staff should know about how it was read; no note names another student.
     digest : str
@@ -63,6 +65,7 @@ class Submission:
     source: Source | None
     rejection: str = ""
     notes: tuple[str, ...] = ()
+    flags: tuple[str, ...] = ()
     digest: str = ""
     owner: Owner | None = None
     layout: str = "file"
@@ -200,7 +203,8 @@ def _read(item: _Found, name: str) -> Submission:
     except RejectedUpload as error:
         return replace(submission, rejection=_sentence(item, str(error)))
     return replace(
-        submission, source=content.source, notes=(*notes, *content.notes), digest=digest(content.source),
+        submission, source=content.source, notes=(*notes, *content.notes), flags=content.flags,
+        digest=digest(content.source),
         markdown=content.markdown, variant=content.variant, pictures=content.pictures,
     )  # fmt: skip
 

@@ -168,7 +168,7 @@ class Fate(Frame, tag="fate"):
     """
 
     name: Annotated[str, Meta(max_length=64)]
-    how: Literal["failed", "skipped", "replaced", "redefined", "inside", "value", "near"]
+    how: Literal["failed", "skipped", "replaced", "deleted", "redefined", "inside", "value", "near"]
     cell: Count
     line: Count
     by_cell: Count

@@ -99,10 +99,12 @@ class Fate:
     """Why a function is not there, or is not the one that was meant.
 
     `tried` says that somebody tried to write it: then it is an error, and else it is missing.
+    `written` says that something was written that may have been meant: then staff hear of it.
     """
 
     message: str
     tried: bool
+    written: bool
 
 
 @dataclass(frozen=True)

@@ -83,6 +83,8 @@ class Watch:
         if not callable(value):
             if before is None:
                 self._note(name, "value", cell, line, described(value))
+            elif name not in self._names:
+                self._note(name, "deleted", before.cell, before.line, "", cell, line)
             else:
                 self._note(name, "replaced", before.cell, before.line, _by(node, name, value), cell, line)
             return
