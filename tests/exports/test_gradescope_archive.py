@@ -135,6 +135,13 @@ def test_a_student_is_known_by_address_or_id(ledger: Ledger) -> None:
     assert student_id([], roster, None) is None
 
 
+def test_gradescopes_own_number_names_nobody(tmp_path: Path) -> None:
+    """The number of a user is not that of a student: only the address says who it is."""
+    path = tmp_path / "submission_metadata.json"
+    path.write_text('{"users": [{"email": "ann@uni.edu", "id": 4711, "name": "Ann Lee"}]}')
+    assert submitters(path) == [("ann@uni.edu",)]
+
+
 @pytest.mark.parametrize(
     "text", ["", "{", "[]", '{"users": 3}', '{"users": [3, {"email": null}]}', "[" * 100_000, '{"users": null}']
 )

@@ -16,7 +16,7 @@ _LARGEST = 64 * 2**20  # it repeats the results of earlier attempts
 
 
 def submitters(path: Path) -> list[tuple[str, ...]]:
-    """Read what Gradescope knows of everybody who handed in: address and number; [] where it says nothing.
+    """Read what Gradescope knows of everybody who handed in: address and SID; [] where it says nothing.
 
     Nothing of it is trusted to be there: a file that cannot be read costs the student nothing.
     """
@@ -58,7 +58,8 @@ def student_id(people: Iterable[tuple[str, ...]], roster: Iterable[Student], led
 
 
 def _names(user: dict[str, Any]) -> tuple[str, ...]:
-    return tuple(str(user[key]) for key in ("email", "id") if isinstance(user.get(key), str | int))
+    """Take the address and the SID; `id` is Gradescope's own number, which may be somebody else's id."""
+    return tuple(str(user[key]) for key in ("email", "sid") if isinstance(user.get(key), str | int))
 
 
 def slim_roster(students: Iterable[Student]) -> bytes:
