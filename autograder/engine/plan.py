@@ -137,7 +137,7 @@ class Plan:
 
     def tasks_of(self, stage: Stage) -> tuple[Task, ...]:
         """Return the checks of a stage."""
-        return next(tasks for each, tasks in self.stages if each is stage)
+        return next(tasks for each, tasks in self.stages if each.name == stage.name)  # a facet has those of its stage
 
     def gallery_of(self, stage: Stage) -> Task:
         """Return the small cases of a stage, or of the facet that one rung sees, for whoever is wrong."""

@@ -82,3 +82,10 @@ def test_the_answers_are_those_of_every_call_by_itself(plan) -> None:
                 for got, wanted in zip(arrays_of(found), expected, strict=True):
                     np.testing.assert_allclose(got, wanted, rtol=1e-9, atol=1e-9)
     assert {task.stage.name for task in plan.tasks} == {each.name for each in all_stages()}
+
+
+def test_a_facet_has_the_checks_of_its_stage(plan) -> None:
+    """Whichever function of a stage is wrong, the checks of the stage are found."""
+    whole = plan.stage("range_factor")
+    assert plan.tasks_of(whole.facet("derivatives")) == plan.tasks_of(whole)
+    assert len(plan.tasks_of(whole)) == 2

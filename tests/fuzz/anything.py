@@ -182,10 +182,10 @@ WORDS = [
         "NotImplemented": "a NotImplementedType",
         "frozenset()": "a frozenset",
         "bytearray(3)": "a bytearray",
-        "type('residual', (), {})()": "a residual",
+        "type('residual', (), {})()": "an object of your class residual",
         "globals()": "a dict",
         "__import__('collections').deque([1])": "a deque",
-        "_Odd()": "a _Odd",
+        "_Odd()": "an object of your class _Odd",
     }.items()
 ]
 RAISES = [
