@@ -108,7 +108,7 @@ def test_an_unnamed_mistake_is_shared_by_those_who_answered_alike() -> None:
 
 
 def test_what_follows_from_an_earlier_mistake_is_not_counted_again() -> None:
-    """A step that solves the student's own equations is paid for in part, and no mistake of its own."""
+    """A step that is right by itself keeps its points, and is no mistake of its own."""
     step = stage("gauss_newton_step", "partial", 11.0)
     checks = tuple(msgspec.structs.replace(check, points=1.0) for check in step.checks)
     assert troubles([result("a", msgspec.structs.replace(step, checks=checks))]) == []
