@@ -121,7 +121,7 @@ def remarks(tasks: Sequence[Task], replies: Sequence[Reply]) -> tuple[str, ...]:
             continue
         function = task.stage.function
         met = set(outputs.kinds.tobytes()) - ({Kind.BOOL_ARRAY} if task.stage.takes_truth else set())
-        if not reply.passed:
+        if not all(each.passed for each in replies):
             met -= {Kind.FLOAT32_ARRAY}  # where it costs points it is no matter of style
         for kind in sorted(met & _REMARKS.keys()):
             found[f"{function} {_REMARKS[Kind(kind)]}"] = None

@@ -19,6 +19,13 @@ from autograder.stages.base import Array, Shape, Stage
 from autograder.stages.wording import number
 
 _ONE_OF_TWO = re.compile(r"value ([12]) of 2: (.*)")  # as the child says it
+_ARGUMENTS = {
+    "normal_equations": ("J", "omega", "f"),
+    "information_matrix": ("graph",),
+    "sparsity_pattern": ("graph",),
+    "range_residual": ("x", "ranging"),
+    "range_jacobian": ("x", "ranging"),
+}
 PARTS = {"normal_equations": ("H", "b"), "sparsity_pattern": ("J_mask", "H_mask")}
 
 
@@ -117,7 +124,24 @@ def _odd(function: str, outcome: Outcome, reason: str) -> str:
         return f"{function} uses the module {reason or '(unknown)'}, which is not allowed here; numpy is."
     if outcome is Outcome.MEMORY:
         return f"{function} needs more memory than it is given."
-    return f"{function} raised {reason or 'an exception'}."
+    called = function if "(" in function else called_as(function)
+    return f"{called} raised {reason or 'an exception'}."
+
+
+def called_as(function: str) -> str:
+    """Write the call that is made.
+
+    Examples
+    --------
+    >>> called_as("residual"), called_as("normal_equations")
+    ('residual(x, graph)', 'normal_equations(J, omega, f)')
+    """
+    return f"{function}({', '.join(arguments(function))})"
+
+
+def arguments(function: str) -> tuple[str, ...]:
+    """Return the names of the arguments of a function."""
+    return _ARGUMENTS.get(function, ("x", "graph"))
 
 
 def _names(stage: Stage) -> Sequence[str]:

@@ -77,7 +77,9 @@ def explain(
     residual_is_wrong = any(each.name == "residual" and each.status != "passed" for each in verdicts)
 
     def probed(stage: Stage) -> list[str]:
-        if not all(_usable(task, replies.get(task.batch)) for task in plan.tasks_of(stage)):
+        if stage.name not in {*EARLIER, STAGE} or not all(
+            _usable(task, replies.get(task.batch)) for task in plan.tasks_of(stage)
+        ):
             return []
         return _probed(session, plan, stage, residual_is_wrong=residual_is_wrong)
 
@@ -137,8 +139,6 @@ def _facts(plan: Plan, stage: Stage, replies: Mapping[int, Reply]) -> list[str]:
 
 def _probed(session: Session, plan: Plan, stage: Stage, *, residual_is_wrong: bool) -> list[str]:
     """Ask a few more questions; of a function that remembers, or throws dice, nothing else is told."""
-    if stage.name not in {*EARLIER, STAGE}:
-        return []
     memory = remembers(stage.function)
     session.fresh()
     first = _values(session, plan, stage.function, memory.rounds[0])

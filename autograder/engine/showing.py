@@ -8,7 +8,7 @@ import numpy as np
 
 from assignment.posegraph import PoseGraph, Ranging
 from autograder.engine.collect import Reply
-from autograder.engine.evidence import came, plainly, telling
+from autograder.engine.evidence import arguments, came, plainly, telling
 from autograder.engine.plan import Task
 from autograder.engine.settle import settled
 from autograder.problems.plain import plain
@@ -16,14 +16,6 @@ from autograder.sandbox.frames import Outcome
 
 MAX_SHOWN_POSES = 10  # a larger counterexample is described in words only
 Example = dict[str, Any]
-
-_ARGUMENTS = {
-    "normal_equations": ("J", "omega", "f"),
-    "information_matrix": ("graph",),
-    "sparsity_pattern": ("graph",),
-    "range_residual": ("x", "ranging"),
-    "range_jacobian": ("x", "ranging"),
-}
 
 
 def why(task: Task, index: int, reply: Reply) -> str:
@@ -41,7 +33,7 @@ def counterexample(task: Task, index: int, reply: Reply) -> Example | None:
     call = telling(task, index, reply)
     if any(max(_extent(argument)) > MAX_SHOWN_POSES for argument in call.arguments):
         return None
-    names = _ARGUMENTS.get(function, ("x", "graph"))
+    names = arguments(function)
     example: Example = {"function": function}
     example.update((name, _json(argument)) for name, argument in zip(names, call.arguments, strict=True))
     expected = [_json(settled(array)) for array in task.stage.expected(*call.arguments)]

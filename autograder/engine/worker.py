@@ -13,6 +13,7 @@ import msgspec
 import numpy as np
 
 from autograder.attempts import Attempts, only_words
+from autograder.engine.advice import advised
 from autograder.engine.answering import judge_answers, judge_written
 from autograder.engine.collect import Collected, collect
 from autograder.engine.corpus import case_of
@@ -121,6 +122,7 @@ class Examiner:
             attempt = Attempts()  # the marks are final: from here on only words are added
             stages = attempt("describing", self.describer.describe, collected, marks, attempt) or marks
             stages = attempt("explaining", explain, session, self.plan, stages, collected.replies, attempt) or stages
+            stages = attempt("reading the submission for advice", advised, stages, job.source.cells) or stages
             stages = attempt("taking the words", only_words, marks, stages) or marks
         texts = _texts(given, job.markdown_answers)
         if written.NAME in self.plan.points:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .failures import classify, clean
+from .failures import classify, clean, located
 from .frames import (
     MAX_DIMENSIONS,
     MAX_REASONS,
@@ -170,7 +170,8 @@ class _Gathered:
             except BadValue as error:
                 self._refuse(number, Outcome.BAD_VALUE, clean(str(error)))
             except BaseException as error:  # noqa: BLE001  # whatever a call raises, the next case counts
-                self._refuse(number, *classify(error))
+                outcome, text = classify(error)
+                self._refuse(number, outcome, located(error, text) if outcome is Outcome.RAISED else text)
             if self.mutated < 0:
                 if x is not None:
                     if x.tobytes() != original:

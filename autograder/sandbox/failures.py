@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 from . import imports
 from .frames import MAX_REASON, Outcome
+from .policy import STUDENT_MODULE
+
+_CELL = re.compile(r"<cell ([0-9]{1,6})>")
 
 
 def classify(error: BaseException) -> tuple[Outcome, str]:
@@ -28,6 +33,24 @@ def said(error: BaseException) -> str:
     except BaseException:  # noqa: BLE001  # its __str__ is the submission's code, too
         return clean(name)
     return clean(f"{name}: {text[:MAX_REASON]}" if text else name)
+
+
+def located(error: BaseException, text: str) -> str:
+    """Add to what an exception says where in the submission it was raised, as [cell:line] counted from 0 and 1.
+
+    The innermost of the submission's own lines counts. The grader looks the line up in the text that it holds.
+    """
+    try:
+        trace, found = BaseException.__dict__["__traceback__"].__get__(error), ""
+        while trace is not None:
+            name = trace.tb_frame.f_code.co_filename
+            cell = _CELL.fullmatch(name)
+            if cell or name == f"{STUDENT_MODULE}.py":
+                found = f" [{int(cell[1]) - 1 if cell else 0}:{trace.tb_lineno}]"
+            trace = trace.tb_next
+    except BaseException:  # noqa: BLE001  # whatever the submission did to its exception
+        return text
+    return text[: MAX_REASON - len(found)] + found
 
 
 def clean(text: str) -> str:

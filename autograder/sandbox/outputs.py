@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -25,6 +26,10 @@ from autograder.sandbox.frames import (
 _LAST_OUTCOME = max(Outcome)
 _LAST_KIND = max(Kind)
 
+
+_PLACE = re.compile(r"(.*) \[([0-9]{1,6}):([0-9]{1,7})\]", re.DOTALL)
+_LINE_END = re.compile(r"\r\n|\r|\n")  # as Python counts lines
+MOST_SHOWN, _MOST_SCANNED = 100, 1000  # characters of a line
 
 Table = tuple[list[tuple[int, ...]], np.ndarray]
 """Shapes and offsets."""
@@ -163,15 +168,18 @@ class Outputs:
     reshaped: Literal["", "column", "row"] = ""
 
 
-def read_outputs(report: BatchReport, expected: Expected) -> Outputs:
-    """Check a report against what was asked for; raises Violation where it does not fit."""
+def read_outputs(report: BatchReport, expected: Expected, source: Source | None = None) -> Outputs:
+    """Check a report against what was asked for; raises Violation where it does not fit.
+
+    With the source, words that name one of its lines show that line.
+    """
     shapes, offsets = expected.table(report)
     if report.mutated >= expected.cases:
         raise Violation("a table is not of the length that it says")
     if int(offsets[-1]) * 8 != len(report.data):
         raise Violation("the data are not as long as the shapes say")
     outcome, kinds = np.frombuffer(report.outcome, np.uint8), np.frombuffer(report.kinds, np.uint8)
-    reasons = _reasons(report.reasons, expected.cases)
+    reasons = {call: with_line(words, source) for call, words in _reasons(report.reasons, expected.cases).items()}
     return Outputs(outcome, kinds, shapes, offsets, np.frombuffer(report.data, "<f8"), reasons, report.mutated)
 
 
@@ -244,6 +252,28 @@ def printable(text: str, most: int = MAX_REASON) -> str:
     """
     shown = "".join(letter if letter.isprintable() else " " for letter in text[: 2 * most])
     return " ".join(shown.split())[:most]
+
+
+def with_line(words: str, source: Source | None) -> str:
+    r"""Put the line of the submission's own text in the place of the numbers by which a child names it.
+
+    Examples
+    --------
+    >>> with_line("IndexError: too far [0:2]", Source("module", ["def f(x):\n    return x[4]"], "a.py"))
+    'IndexError: too far, in line 2: `return x[4]`'
+    >>> with_line("IndexError: too far [7:2]", None)
+    'IndexError: too far'
+    """
+    found = _PLACE.fullmatch(words)
+    if not found:
+        return words
+    cell, line = int(found[2]), int(found[3])
+    lines = _LINE_END.split(source.cells[cell]) if source is not None and cell < len(source.cells) else []
+    if source is None or not 0 < line <= len(lines):
+        return found[1]
+    text = printable(lines[line - 1][:_MOST_SCANNED]).replace("`", "'")
+    shown = text if len(text) <= MOST_SHOWN else text[: MOST_SHOWN - 4] + " ..."
+    return f"{found[1]}, in {place(source, cell, line)}" + (f": `{shown}`" if shown else "")
 
 
 def place(source: Source, cell: int, line: int) -> str:

@@ -123,7 +123,7 @@ class Session:
             return reply
         try:
             if isinstance(reply, frames.BatchReport):
-                return read_outputs(reply, expected)
+                return read_outputs(reply, expected, self._source)
             raise Violation("a reply is not of the kind that was asked for")
         except Violation as end:
             return self._failure(end, share)

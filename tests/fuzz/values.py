@@ -30,7 +30,7 @@ from tests.fuzz.anything import ARGUMENTS, PARTS, REPORTED, Behaviour, Drawn, Va
 ROOT = Path(__file__).resolve().parents[2]
 _TAG = re.compile(r"<[^>]*>")
 SHAPE = r"\([\d, ]*\)"
-CALL = r"(?:(\w+) of )?(\w+)(?:\(x \+ dx\(x\), graph\))?"  # which part of which function, in which round
+CALL = r"(?:(\w+) of )?(\w+)(?:\((?:x \+ dx\(x\), graph|[\w, ]+)\))?"  # which part of which function, in which round
 CLAIMS = {
     "shape": re.compile(CALL + rf" returned shape ({SHAPE}), expected ({SHAPE})\."),
     "odd": re.compile(CALL + r" returned (nan|inf), expected finite numbers"),

@@ -9,6 +9,7 @@ import pytest
 
 from autograder.sandbox.frames import Array, Outcome, Source
 from autograder.sandbox.host import Failure, Outputs, Sandbox
+from autograder.sandbox.outputs import MOST_SHOWN
 from tests.sandbox.conftest import X, batch
 
 Value = Callable[..., Outputs]
@@ -43,7 +44,7 @@ def test_what_a_call_raises_is_said(run: Run, body: str, outcome: Outcome, reaso
     assert isinstance(outputs, Outputs), outputs
     assert outputs.outcome.tolist() == [outcome] * 2
     assert outputs.reasons[0].startswith(reason)
-    assert len(outputs.reasons[0]) <= 300
+    assert len(outputs.reasons[0]) <= 300 + len(", in line 6: ``") + MOST_SHOWN
 
 
 def test_one_bad_call_costs_no_other(run: Run) -> None:
@@ -64,7 +65,7 @@ def f(x, graph):
     assert outputs.outcome.tolist() == [Outcome.OK, Outcome.RAISED, Outcome.BAD_VALUE, Outcome.OK, Outcome.OK]
     assert outputs.shapes == [(3,), (), (), (3,), (3,)]
     assert outputs.data.tolist() == [0, 1, 2, 0, 4, 8, 0, 5, 10]
-    assert outputs.reasons == {1: "ValueError: second", 2: "None"}
+    assert outputs.reasons == {1: 'ValueError: second, in line 7: `raise ValueError("second")`', 2: "None"}
 
 
 def test_reasons_are_few(run: Run) -> None:
@@ -72,10 +73,11 @@ def test_reasons_are_few(run: Run) -> None:
     calls = "calls = 0\n\ndef f(x, graph):\n    global calls\n    calls += 1\n    raise ValueError(calls % {})\n"
     outputs = run(calls.format(2), cases=100)
     assert isinstance(outputs, Outputs)
-    assert outputs.reasons == {case: f"ValueError: {1 - case % 2}" for case in range(100)}
+    shown = ", in line 6: `raise ValueError(calls % {})`"
+    assert outputs.reasons == {case: f"ValueError: {1 - case % 2}" + shown.format(2) for case in range(100)}
     outputs = run(calls.format(1000), cases=100)
     assert isinstance(outputs, Outputs)
-    assert outputs.reasons == {case: f"ValueError: {case + 1}" for case in range(64)}
+    assert outputs.reasons == {case: f"ValueError: {case + 1}" + shown.format(1000) for case in range(64)}
 
 
 def test_a_function_that_is_not_there_is_unfinished(run: Run) -> None:

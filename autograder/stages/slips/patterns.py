@@ -16,6 +16,7 @@ from autograder.stages.base import Array, Met, Pattern
 from autograder.stages.same import off
 from reference_solution import slam1d
 
+_WORKED = ((0, 1), (1, 2), (2, 3), (3, 4), (0, 4))  # the edges of the worked example
 SINGLE, DOUBLE = 2.0**-24, 2.0**-53  # the rounding of the two types, relative
 MANY = 6  # different errors: so many are no constant
 
@@ -96,6 +97,27 @@ def single_precision(right: Callable[..., Any], sizes: Sizes, terms: int) -> Pat
         )
 
     return fits
+
+
+def typed_in(met: Sequence[Met]) -> bool:
+    """Find an f whose rows are those of the worked example's edges, and which fails where there are fewer."""
+    answered = 0
+    for (x, graph), got in met:
+        if min(len(x), len(graph.edges)) < len(_WORKED):
+            if got is not None:
+                return False
+            continue
+        if got is None or got[0].ndim != 1 or len(got[0]) <= len(_WORKED):
+            return False
+        i, j = np.array(_WORKED).T
+        rows = x[i] + graph.measurements[: len(_WORKED)] - x[j]
+        priors = (x[0], x[0] - graph.prior_means[0])
+        if off(got[0][: len(_WORKED)], rows, 1e-9 * (1.0 + np.abs(x).max())).any():
+            return False
+        if min(abs(got[0][len(_WORKED)] - prior) for prior in priors) > 1e-9 * (1.0 + abs(x[0])):
+            return False
+        answered += 1
+    return answered > 0
 
 
 def small_difference(met: Sequence[Met]) -> bool:

@@ -12,6 +12,7 @@ import numpy as np
 
 from autograder.stages.slips import narrow
 from autograder.stages.slips.catalogue import Catalogue
+from autograder.stages.slips.patterns import typed_in
 from autograder.stages.slips.residual_digits import LOST_DIGITS
 from reference_solution import slam1d as right
 
@@ -211,6 +212,26 @@ def residual_of_worked_example(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     Those six numbers hold for one graph at one state; calculate them from what you are given.
     """
     return np.array([0.0, 0.0, 0.0, 0.0, -0.5, 0.0])
+
+
+@slip(pattern=typed_in)
+def residual_typed_in_for_worked_example(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The rows are typed in for the edges of the worked example.
+
+    Those five edges and that one prior belong to one graph; go over the edges and priors of the graph that is given.
+    """
+    u = graph.measurements
+    rows = [x[r] + u[r] - x[r + 1] for r in range(4)]
+    return np.array([*rows, x[0] + u[4] - x[4], x[0]])
+
+
+@slip()
+def prior_residual_is_pose_0(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
+    """The row of every prior is x_0 itself: always pose 0, and without the mean.
+
+    A prior says of some pose where it is believed to stand; which pose, and where, is written in the graph.
+    """
+    return np.concatenate([right.residual(x, graph)[: len(graph.edges)], np.full(len(graph.priors), x[0])])
 
 
 @slip("R21", minimum_poses=3)
