@@ -60,6 +60,19 @@ def convention(pairs: Iterable[tuple[Rows | None, Rows]]) -> Convention | None:
     return Convention(reordered, turned) if reordered or turned else None
 
 
+def whitened(pairs: Iterable[tuple[Rows | None, Rows]]) -> bool:
+    """Whether in all cases, each given and expected, f and J are divided by the standard deviations and Omega is I.
+
+    The order of the rows and their signs do not matter: H, b and the step are the right ones.
+    """
+    for one, other in pairs:
+        root = np.sqrt(np.diag(other.omega))
+        white = Rows(root * other.f, root[:, None] * other.J, np.eye(len(root)))
+        if one is None or _match(one, white) is None:
+            return False
+    return True
+
+
 def rows_alike(one: Array, other: Array, within: float) -> bool:
     """Whether two arrays hold the same rows, in whatever order; a row of numbers or a single number each.
 

@@ -57,7 +57,7 @@ def _wanted(verdict: StageVerdict) -> bool:
 
 def _advised(verdict: StageVerdict, cells: Sequence[str]) -> StageVerdict:
     function = stage(verdict.name).function
-    raised = re.search(r" raised (.*)", verdict.message)
+    raised = re.search(r" raised (.*)", "\n".join([verdict.message, *(check.message for check in verdict.checks)]))
     hint = next((words for said, words in _RAISED.items() if raised and re.search(said, raised[1])), verdict.hint)
     parameters, body = _written(function, cells)
     found = [_own_graph(function, body)]

@@ -16,10 +16,12 @@ from autograder.engine.collect import Absent, Collected, Reply
 from autograder.engine.evidence import plainly, simplest
 from autograder.engine.groups import digest
 from autograder.engine.plan import Plan, Task
+from autograder.engine.rows import RowsOf, priors_last
 from autograder.engine.showing import counterexample, why
 from autograder.sandbox.frames import Kind
 from autograder.sandbox.host import Outputs
 from autograder.stages.base import Slip, Stage
+from autograder.stages.catalogue import slips
 from autograder.verdicts import CheckVerdict, StageVerdict
 
 _REMARKS = {
@@ -31,20 +33,36 @@ _REMARKS = {
 }
 
 
+# The mistakes of whom has whitened f and J and set Omega to the identity: together they fit.
+_WHITENED = {
+    "residual": "residual_whitened",
+    "jacobian": "jacobian_whitened",
+    "information_matrix": "identity_used_as_information",
+}
+_FITS = "Your f and J are whitened and your Omega is the identity: together they give the right H, b and step."
+_UNWHITEN = (
+    "Whitening is a good thing elsewhere; here f is in metres, J has no unit, and the certainty of each measurement "
+    "stands in Omega alone."
+)
+
+
 class Describer:
     """Describes submissions of one run; remembers what known mistakes answer, so that it is worked out once."""
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
+        self._rows = RowsOf(plan)
         self._recognisers: dict[str, Recogniser] = {}
 
     def describe(self, collected: Collected, verdicts: Sequence[StageVerdict], attempt: Attempts) -> list[StageVerdict]:
         """Describe every stage of one submission; points and status stay as they are."""
+        white = bool(attempt("comparing f, J and Omega", self._rows.whitened, collected))
         return [
-            self._stage(verdict, collected, attempt) if self.plan.has(verdict.name) else verdict for verdict in verdicts
+            self._stage(verdict, collected, attempt, white=white) if self.plan.has(verdict.name) else verdict
+            for verdict in verdicts
         ]
 
-    def _stage(self, verdict: StageVerdict, collected: Collected, attempt: Attempts) -> StageVerdict:
+    def _stage(self, verdict: StageVerdict, collected: Collected, attempt: Attempts, *, white: bool) -> StageVerdict:
         stage = self.plan.stage(verdict.name)
         tasks = self.plan.tasks_of(stage)
         replies = [collected.reply(task) for task in tasks]
@@ -55,13 +73,19 @@ class Describer:
             return verdict
         group = attempt(f"grouping {stage.name}", digest, tasks, replies) or ""
         followed = all(check.passed or check.points for check in verdict.checks)
-        slip = None if followed else attempt(f"naming the mistake in {stage.name}", self._slip, stage, tasks, replies)
-        if slip is None:
+        if white and stage.name in _WHITENED:
+            slip = next(each for each in slips(stage.name) if each.identifier == _WHITENED[stage.name])
+            words = f"{slip.name} {_FITS} {verdict.message}".strip()
+            return replace(verdict, group=group, slip=slip.identifier, hint=_UNWHITEN, message=words)
+        named = None if followed else attempt(f"naming the mistake in {stage.name}", self._named, stage, tasks, replies)
+        if named is None:
             return replace(verdict, group=group)
-        words = f"{slip.name} {verdict.message}".strip()
+        slip, before = named
+        words = f"{before}{slip.name} {verdict.message}".strip()
         return replace(verdict, group=group, slip=slip.identifier, hint=slip.hint, message=words)
 
-    def _slip(self, stage: Stage, tasks: Sequence[Task], replies: Sequence[Reply]) -> Slip | None:
+    def _named(self, stage: Stage, tasks: Sequence[Task], replies: Sequence[Reply]) -> tuple[Slip, str] | None:
+        """Return the known mistake, with what is to be said before its name."""
         outputs = [reply.outputs for reply in replies if isinstance(reply.outputs, Outputs)]
         if len(outputs) != len(tasks):
             return None
@@ -72,7 +96,13 @@ class Describer:
             same_as = np.concatenate([start + task.same_as for start, task in zip(starts, tasks, strict=False)])
             known = self._recognisers.setdefault(stage.name, Recogniser(stage, calls, same_as))
         coarse = any(Kind.FLOAT32_ARRAY in each.kinds.tobytes() for each in outputs)
-        return known.recognise(_joined(outputs), COARSE if coarse else CLOSE)
+        given, close = _joined(outputs), COARSE if coarse else CLOSE
+        found = known.recognise(given, close)
+        if found is not None:
+            return found, ""
+        moved = priors_last(known.calls, given) if stage.name in _WHITENED else None
+        found = None if moved is None else known.recognise(moved, close)
+        return None if found is None else (found, "The rows of the priors come first, and not only that. ")
 
 
 def _joined(outputs: Sequence[Outputs]) -> Given:

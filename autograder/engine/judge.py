@@ -5,19 +5,16 @@ Every status and every point is final here; what comes later only adds words.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
-import numpy as np
 from msgspec.structs import replace
 
-from autograder.diagnosis.equivalence import Convention, Rows, convention
+from autograder.diagnosis.equivalence import Convention
 from autograder.engine.collect import Absent, Collected, Reply
 from autograder.engine.evidence import plainly, simplest
-from autograder.engine.normal import arrays_of
 from autograder.engine.plan import Plan, Task
-from autograder.problems.cases import Case
+from autograder.engine.rows import INTERCHANGEABLE, RowsOf
 from autograder.sandbox.frames import Outcome
-from autograder.sandbox.host import Outputs
 from autograder.stages.base import Stage
 from autograder.verdicts import CheckVerdict, StageStatus, StageVerdict
 
@@ -40,19 +37,18 @@ _STATUS_OF_OUTCOME: dict[Outcome, StageStatus] = {
     Outcome.BAD_VALUE: "failed",
     Outcome.OK: "failed",
 }
-_INTERCHANGEABLE = ("residual", "jacobian", "information_matrix")  # stages that a common convention keeps whole
 
 
 class Judge:
-    """Judges submissions of one run; remembers the expected rows of the graphs, so that they are worked out once."""
+    """Judges submissions of one run."""
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
-        self._rows: list[Rows] = []
+        self._rows = RowsOf(plan)
 
     def judge(self, collected: Collected) -> tuple[StageVerdict, ...]:
         """Judge every stage of one submission, earlier ones first."""
-        accepted = self._convention(collected)
+        accepted = self._rows.convention(collected)
         verdicts: dict[str, StageVerdict] = {}
         for stage, tasks in self.plan.stages:
             wrong = [name for name in stage.builds_on if name in verdicts and verdicts[name].status != "passed"]
@@ -69,7 +65,7 @@ class Judge:
     ) -> StageVerdict:
         points = self.plan.points[stage.name]
         replies = [collected.reply(task) for task in tasks]
-        if accepted is not None and stage.name in _INTERCHANGEABLE:
+        if accepted is not None and stage.name in INTERCHANGEABLE:
             checks = [_passed(task, points) for task in tasks]
             return _verdict(stage, points, checks, "passed", remarks=(accepted.remark,))
         judged = [_check(task, reply, points) for task, reply in zip(tasks, replies, strict=True)]
@@ -100,52 +96,6 @@ class Judge:
             return check
         earned = round(check.max_points * self.plan.follow_through, 6)
         return replace(check, points=earned, message=f"Right by itself; with your own functions: {check.message}")
-
-    def _convention(self, collected: Collected) -> Convention | None:
-        """Find one convention that explains f, J and Omega of every case, where one of them is not as expected."""
-        stages = [self.plan.stage(name) for name in _INTERCHANGEABLE if self.plan.has(name)]
-        if len(stages) != len(_INTERCHANGEABLE):
-            return None
-        replies = {
-            stage.name: [collected.replies.get(task.batch) for task in self.plan.tasks_of(stage)] for stage in stages
-        }
-        if all(reply is not None and reply.passed for found in replies.values() for reply in found):
-            return None
-        given = (
-            None if own is None else Rows(own[2], own[0], own[1])
-            for position, task in enumerate(self.plan.tasks_of(stages[0]))
-            for own in self._own_rows(task, [replies[name][position] for name in _INTERCHANGEABLE])
-        )
-        return convention(zip(given, self._expected_rows(stages), strict=False))
-
-    def _own_rows(self, task: Task, parts: Sequence[Reply | None]) -> Iterable[Case | None]:
-        """Give J, Omega and f of the student case by case; None once where they are not numbers of the right shape."""
-        f, J, omega = (
-            None if part is None or not isinstance(part.outputs, Outputs) else part.outputs for part in parts
-        )
-        own = None if f is None or J is None or omega is None else _rows(task.cases, [J, omega, f])
-        return [None] if own is None else own
-
-    def _expected_rows(self, stages: list[Stage]) -> list[Rows]:
-        """Return f, J and Omega of every case of the graphs, worked out once."""
-        if not self._rows:
-            for task in self.plan.tasks_of(stages[0]):
-                for case in task.cases:
-                    self._rows.append(Rows(*(stage.expected(*stage.calls(case)[0])[0] for stage in stages)))
-        return self._rows
-
-
-def _rows(cases: Sequence[Case], outputs: Sequence[Outputs]) -> list[Case] | None:
-    """Return (J, Omega, f) of the student for every case; None where one is not numbers of the right shape."""
-    if any(each.outcome.any() for each in outputs) or not all(np.isfinite(each.data).all() for each in outputs):
-        return None
-    rows = []
-    for (_, graph), J, omega, f in zip(cases, *map(arrays_of, outputs), strict=True):
-        m, n = graph.n_factors, graph.n_poses
-        if J.shape != (m, n) or omega.shape != (m, m) or f.shape != (m,):
-            return None
-        rows.append((J, omega, f))
-    return rows
 
 
 def _redefined(stage: Stage, status: StageStatus, collected: Collected) -> str:

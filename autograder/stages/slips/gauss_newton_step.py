@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from autograder.stages.slips import narrow
+from autograder.stages.slips import narrow, wrong_products
 from autograder.stages.slips.catalogue import Catalogue
 from autograder.stages.slips.patterns import rounded
 from autograder.stages.slips.step_patterns import (
@@ -244,4 +244,4 @@ def odometry_taken_from_state(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     return np.linalg.solve(H, -b)
 
 
-SLIPS = (*slip.entries, *WITHOUT_PRIORS, *WITHOUT_EQUATIONS, *narrow.STEP)
+SLIPS = (*slip.entries, *WITHOUT_PRIORS, *WITHOUT_EQUATIONS, *narrow.STEP, *wrong_products.STEP)
