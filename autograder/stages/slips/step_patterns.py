@@ -96,33 +96,33 @@ def priors_replaced_by_pose_0_at_0(met: Sequence[Met]) -> bool:
 
 def of_singular_equations(met: Sequence[Met]) -> bool:
     """Find steps that fit the edges alone and stand anywhere, and none, or 0, where the solver gave up."""
-    return _edges_alone(met, lambda _: 0.0)
+    return _edges_alone(met, None)
 
 
-def _edges_alone(met: Sequence[Met], anchor: Callable[[_Left], float], *, gives_up: bool = True) -> bool:
-    """Whether all steps fit the edges, the anchor is 0, and most are wrong: with one prior a right step may fit too.
+def _edges_alone(met: Sequence[Met], anchor: Callable[[_Left], float] | None) -> bool:
+    """Whether all steps fit the edges, and the anchor is 0, but do not fit the priors.
 
-    No step, or 0, is allowed where H of the edges is singular.
-
-    Only a graph in one piece is asked for the anchor: in several, a number in one entry leaves H singular.
+    No step, or 0, is allowed where H is singular: without an anchor everywhere, with one for a graph in several
+    parts. One prior on pose 0 may agree with an anchor, but not with a chain that stands anywhere.
     """
     fitting = wrong = 0
     for call, got in met:
         case = _left(call, got, priors=False)
+        held = anchor is not None and _in_one_piece(call[1])
         if case is None:
-            if not gives_up or (got is not None and got[0].shape != call[0].shape):
+            if held or (got is not None and got[0].shape != call[0].shape):
                 return False
             continue
-        if not case.dx.any():
+        if not case.dx.any() and not held:
             continue
         if np.abs(case.left).max() > SOLVED * case.size:
             return False
-        if _in_one_piece(call[1]) and abs(anchor(case)) > 1e-5 * (1.0 + np.abs(case.dx).max()):
+        if held and anchor is not None and abs(anchor(case)) > 1e-5 * (1.0 + np.abs(case.dx).max()):
             return False
-        fitting += 1
         whole = _left(call, got)
+        fitting += 1
         wrong += whole is not None and bool(np.abs(whole.left).max() > SOLVED * whole.size)
-    return bool(5 * fitting >= len(met) and 4 * wrong >= 3 * fitting)
+    return bool(5 * fitting >= len(met) and (wrong > 0 if anchor else 4 * wrong >= 3 * fitting))
 
 
 def _in_one_piece(graph: Any) -> bool:

@@ -59,7 +59,11 @@ def pose_0_at_0_in_place_of_priors(x: np.ndarray, graph: PoseGraph) -> np.ndarra
     k = len(graph.edges)
     J, omega, f = right.jacobian(x, graph), right.information_matrix(graph), right.residual(x, graph)
     H, b = right.normal_equations(J[:k], omega[:k, :k], f[:k])
-    step: np.ndarray = np.linalg.pinv(H, rcond=1e-10) @ -b
+    H[0, 0] += 1.0
+    try:
+        step: np.ndarray = np.linalg.solve(H, -b)
+    except np.linalg.LinAlgError:  # a graph in several parts has more poses to hold
+        return np.zeros(graph.n_poses)
     step -= step[0] + x[0]
     return step
 
