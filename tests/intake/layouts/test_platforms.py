@@ -129,6 +129,21 @@ def test_canvas_takes_the_newest_attempt_of_each_user(tmp_path: Path) -> None:
     assert "handed out" in found["zoëq_1006"].rejection
 
 
+def test_the_first_mark_of_a_name_is_the_platforms(tmp_path: Path) -> None:
+    """What looks like another person further on is the student's own name of the file; a test account is said."""
+    moodle = {"Ann Lee_42_assignsubmission_file_Bob Ray_7_assignsubmission_file_slam1d.py": CODE}
+    canvas = {"doejane_101_9001_roejohn_102_9002_slam1d.py": CODE, "studenttest_103_9003_slam1d.py": CODE}
+    found = {**both_ways(tmp_path / "m", moodle), **both_ways(tmp_path / "c", canvas)}
+    assert {name: each.student_id for name, each in found.items()} == {
+        "Ann Lee_42": "42",
+        "doejane_101": "101",
+        "studenttest_103": "103",
+    }
+    assert found["doejane_101"].file == "roejohn_102_9002_slam1d.py"
+    nobody = {name for name, each in found.items() if each.owner is not None and each.owner.nobody}
+    assert nobody == {"studenttest_103"}
+
+
 def test_a_foreign_file_among_those_of_canvas_is_not_lost(tmp_path: Path) -> None:
     """Nobody is guessed to be its owner."""
     files = {f"student{k}_{k}_{k}_slam1d.py": CODE for k in range(1, 12)}
