@@ -6,6 +6,7 @@ from which `outputs` rebuilds numbers and bounded words.
 
 from __future__ import annotations
 
+import resource
 import secrets
 from collections.abc import Collection
 from types import TracebackType
@@ -95,7 +96,7 @@ class Sandbox:
             report = channel.reply(frames.LOAD_BOUND, 10.0)
         except Ended as end:
             kind = SandboxLost if self.server.killed else SandboxError
-            raise kind(f"The canary of the sandbox did not answer ({end.reason}).") from end
+            raise kind(f"The canary of the sandbox did not answer ({end.reason}).{_memory_bound()}") from end
         finally:
             channel.close()
             self.server.kill(pid)
@@ -126,3 +127,11 @@ class Sandbox:
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
         self.close()
+
+
+def _memory_bound() -> str:
+    """Name a bound on memory that this process has been started with: it may be why a child could not live."""
+    soft, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if soft == resource.RLIM_INFINITY:
+        return ""
+    return f" This shell allows {soft >> 20} MiB of memory (`ulimit -v`), which may be too little; raise that limit."
