@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -201,12 +201,12 @@ def _flag(remarks: Sequence[str]) -> str:
     return f"{start}{words[1:]}." if words else ""
 
 
-def report_missing(people: People, assigned: Mapping[str, Assigned], out: Path) -> None:
-    """List on stderr, and in OUT/missing.csv, who has handed in nothing."""
+def report_missing(people: People, assigned: Mapping[str, Assigned], out: Path, graded: Set[str] = frozenset()) -> None:
+    """List on stderr, and in OUT/missing.csv, who has handed in nothing; `graded` are ids with a result in OUT."""
     from autograder.reports.gradebook import defused
     from autograder.writing import write_whole
 
-    found = {one.student_id for one in assigned.values()}
+    found = graded | {one.student_id for one in assigned.values()}
     missing = [student for student in people.students if student.student_id not in found]
     file = io.StringIO()
     writer = csv.writer(file, lineterminator="\n")

@@ -10,6 +10,7 @@ import click
 
 if TYPE_CHECKING:
     from autograder.course import Course
+    from autograder.engine.grade import Run
     from autograder.marking.folder import Decided
     from autograder.reports.changes import Change
     from autograder.verdicts import Result
@@ -54,7 +55,7 @@ def write_all(
 def _write_answers(out: Path, found: Decided, anonymous: bool) -> None:
     """Write written.html and written.csv; a sheet with points that nobody has read back is left alone."""
     from autograder.marking.anonymous import anonymous_names, read_key
-    from autograder.marking.sheet import FILE, sheet_text, unread
+    from autograder.marking.sheet import FILE, LAST, sheet_text, unread
     from autograder.reports.written import written_page
     from autograder.writing import write_whole
 
@@ -73,7 +74,8 @@ def _write_answers(out: Path, found: Decided, anonymous: bool) -> None:
             f"take them: autograder report {out} --marks {out / FILE}"
         )
     else:
-        write_whole(out / FILE, sheet_text(answers).encode())
+        for name in (LAST, FILE):
+            write_whole(out / name, sheet_text(answers).encode())
 
 
 def say(note: str) -> None:
@@ -89,3 +91,24 @@ def show_changes(moved: Sequence[Change], quiet: bool) -> None:
 
     if moved:
         click.echo(f"\n{changes_text(moved)}", err=quiet)
+
+
+def exit_code(run: Run) -> int:
+    """Return 130 for an interrupted run, 3 where something could not be graded, else 0."""
+    if run.interrupted:
+        click.echo(
+            f"autograder: Interrupted: {run.record.graded_now + run.record.reused} of {run.record.submissions} are "
+            "graded and kept; "
+            "the same command goes on from there.",
+            err=True,
+        )
+        return 130
+    broken = [result.submission for result in run.results if result.status == "grader_error"]
+    if broken:
+        click.echo(
+            f"autograder: {len(broken)} could not be graded, through no fault of the student "
+            f"({', '.join(broken[:3])}{', ...' if len(broken) > 3 else ''}); see results/ and `autograder doctor`.",
+            err=True,
+        )
+        return 3
+    return 0

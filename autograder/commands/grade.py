@@ -68,6 +68,7 @@ POLICIES = ("full", "hint", "score")
     metavar="ID",
     help="Grade only this submission, by its name in grades.csv; may be given again.",
 )
+@click.option("--anyway", is_flag=True, help="Go on where the uploads carry variants that nobody was given.")
 @click.option("--fresh", is_flag=True, help="Grade everything again, whatever is stored in OUT.")
 @click.option(
     "--time-limit",
@@ -117,6 +118,7 @@ def command(
     given: Sequence[str],
     only: Sequence[str],
     as_json: bool,
+    anyway: bool,
     **options: Any,
 ) -> int:
     """Grade files, folders of files, or both.
@@ -140,9 +142,12 @@ def command(
     through no fault of the student; 130 interrupted (results so far are kept).
     """
     from autograder.commands._class import secret_of
+    from autograder.commands._contradiction import check_variants
     from autograder.commands._people import decide, people_of, report_missing
+    from autograder.commands._reporting import exit_code, say
     from autograder.course import load_course
     from autograder.intake.submission import collect
+    from autograder.marking.members import update_members
     from autograder.marking.owners import store_owners
 
     course = load_course(course_file)
@@ -152,15 +157,22 @@ def command(
     everything = collect(list(paths))
     submissions = _chosen(everything, only)
     people = people_of(roster, ledger, secret, term, families, course)
+    if note := check_variants(everything, None if people is None else people.ledger, anyway=anyway):
+        say(note)
     assigned, owners = decide(everything, people, given, out)
     if secret is not None and term is not None and course.seed is None and options["seed"] is None:
         options["seed"] = secret.seed(term)
     make_folder(out)
     store_owners(out, owners)
-    run = grade_and_report(submissions, course, out, merge=bool(only), assigned=assigned, **options)
+    class_ids = () if people is None or roster is None else [one.student_id for one in people.students]
+    change = update_members(out, paths, [one.id for one in everything], class_ids, some=bool(only))
+    for note in change.notes:
+        say(note)
+    merge = bool(only) or bool(change.staying)
+    run = grade_and_report(submissions, course, out, merge=merge, assigned=assigned, **options)
     print_results(run.results, out, as_json)
     if people is not None and assigned is not None:
-        report_missing(people, assigned, out)
+        report_missing(people, assigned, out, {one.student_id for one in run.results if one.student_id})
     return exit_code(run)
 
 
@@ -202,8 +214,8 @@ def grade_and_report(
 ) -> Run:
     """Grade with the course's settings but for those given, and write the reports into `out`.
 
-    With `merge` the reports also hold the results that were in `out` before; `assigned` says whose
-    each submission is.
+    The reports hold everybody who belongs to the folder. `merge` says that some of them are not among
+    `submissions` and keep their results; `assigned` says whose each submission is.
     """
     from dataclasses import replace
 
@@ -241,10 +253,7 @@ def grade_and_report(
     settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, scheduler=scheduler, **given)
     with progress() as report:
         run = grade(submissions, course, settings, out, report, assigned, exam)
-    results = run.results
-    if merge or (run.interrupted and results):
-        uploads = {submission.id for submission in submissions}
-        results = tuple(one for one in stored_results(out) if merge or one.submission in uploads)
+    results = stored_results(out) if run.results else ()
     record = msgspec.to_builtins(run.record)
     whole = not run.interrupted
     found, moved = write_all(out, results, record, course, feedback=feedback, strict=False, complete=whole)
@@ -278,23 +287,3 @@ def print_results(results: Sequence[Result], out: Path, as_json: bool) -> None:
         name for name in ("grades.csv", "report.html", "written.html", "feedback", "results") if (out / name).exists()
     ]
     click.echo(f"\nWrote {', '.join(str(out / name) for name in names)}.", err=True)
-
-
-def exit_code(run: Run) -> int:
-    """Return 130 for an interrupted run, 3 where something could not be graded, else 0."""
-    if run.interrupted:
-        click.echo(
-            f"autograder: Interrupted: {len(run.results)} of {run.record.submissions} are graded and kept; "
-            "the same command goes on from there.",
-            err=True,
-        )
-        return 130
-    broken = [result.submission for result in run.results if result.status == "grader_error"]
-    if broken:
-        click.echo(
-            f"autograder: {len(broken)} could not be graded, through no fault of the student "
-            f"({', '.join(broken[:3])}{', ...' if len(broken) > 3 else ''}); see results/ and `autograder doctor`.",
-            err=True,
-        )
-        return 3
-    return 0

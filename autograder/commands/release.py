@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -91,9 +92,17 @@ def command(
     click.echo(done.text())
     click.echo(
         f"\nTo hand out: {out / 'zips'}, or {out / 'students'}. For staff: {out / 'staff'}; keep variants.csv safe.\n"
-        f"When they hand in: autograder grade UPLOADS --roster {roster} --term {term} --secret-file {secret_file} "
-        f"--ledger {out / LEDGER} -o graded"
+        f"When they hand in: {_grading(roster, term, secret_file, families, out / LEDGER, course_file)}"
     )
+
+
+def _grading(roster: Path, term: str, secret: Path, families: Sequence[str], ledger: Path, course: Path | None) -> str:
+    """Return the whole command that grades what is handed in, to be pasted into a shell."""
+    parts: list[tuple[str, object]] = [("--roster", roster), ("--term", term), ("--secret-file", secret)]
+    parts += [("--family", name) for name in families]
+    parts += [("--ledger", ledger)] + ([("--course", course)] if course is not None else [])
+    words = [word for option, value in parts for word in (option, str(value))]
+    return f"autograder grade UPLOADS {shlex.join(words)} -o graded"
 
 
 def worked_solution(problem: Problem) -> dict[str, str]:

@@ -40,6 +40,12 @@ _MOST_LINES = 20
     metavar="FILE",
     help="Take the points and comments of written answers from this filled sheet (OUT/written.csv).",
 )
+@click.option(
+    "--forget",
+    multiple=True,
+    metavar="NAME",
+    help="Drop a submission for good, such as one that is kept aside; may be given again.",
+)
 @click.option("--anonymous", is_flag=True, help="Replace the names on written.html and written.csv.")
 @click.option("--json", "as_json", is_flag=True, help="One result object a line to stdout, and no table.")
 def command(
@@ -48,6 +54,7 @@ def command(
     feedback: str | None,
     kind: str,
     marks_file: Path | None,
+    forget: Sequence[str],
     anonymous: bool,
     as_json: bool,
 ) -> None:
@@ -62,11 +69,15 @@ def command(
     autograder report graded --anonymous
     autograder report graded --marks graded/written.csv
     autograder report graded --feedback hint
+    autograder report graded --forget ada
     autograder report graded --format md > post.md
     """
     from autograder.commands._reporting import show_changes, write_all
     from autograder.commands.grade import print_results
+    from autograder.marking import members
 
+    if forget:
+        members.forget(out, forget)
     stored = stored_results(out)
     course = course_of(out, course_file)
     if marks_file is not None:
@@ -111,13 +122,15 @@ def _take(out: Path, stored: Sequence[Result], course: Course, path: Path) -> No
 
 
 def stored_results(out: Path) -> tuple[Any, ...]:
-    """Read every result of a run, sorted; what cannot be read is named on stderr and left out."""
+    """Read the results of everybody who belongs to a folder, sorted; what cannot be read is said and left out."""
     import msgspec
 
     from autograder.errors import UsageError
+    from autograder.marking.members import read_members
     from autograder.verdicts import decode
 
-    paths = sorted((out / "results").glob("[!.]*.json"))
+    aside = set(read_members(out).aside)
+    paths = sorted(path for path in (out / "results").glob("[!.]*.json") if path.stem not in aside)
     if not paths:
         raise UsageError(f"{out} holds no results; expected the folder that `autograder grade ... -o OUT` wrote.")
     results = {}

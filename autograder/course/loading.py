@@ -51,6 +51,9 @@ def load_course(path: Path | None) -> Course:
     course = Course(**values, **named, points=points)
     if course.max_score <= 0:
         raise UsageError(f"{path}: the stages in use have no points; give at least one of them points in [points].")
+    if "bonus_cap" in values and course.bonus_cap < course.max_score:
+        told = f"is {course.bonus_cap:g}, below the {course.max_score:g} points that there are without bonus"
+        raise _complaint(path, text, "grading", "bonus_cap", told)
     return course
 
 

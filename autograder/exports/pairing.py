@@ -117,7 +117,7 @@ def remarks(pairs: Pairs, people: Sequence[Person], table: str) -> list[str]:
     """Say what was left alone, for the person at the keyboard."""
     notes = []
     if pairs.strangers:
-        notes.append(f"Not in {table}: {listing([one.submission for one in pairs.strangers])}; nothing was written.")
+        notes.append(f"Not in {table}: {listing([one.submission for one in pairs.strangers])}; left out.")
     without = [person for person in people if person.line not in pairs.by_line]
     if without:
         notes.append(f"Without a result: {listing([person.name for person in without])}; the cell stays as it was.")
@@ -125,7 +125,7 @@ def remarks(pairs: Pairs, people: Sequence[Person], table: str) -> list[str]:
     ours = [one.submission for one in found if one.score is None]
     if ours:
         notes.append(f"Could not be graded, our fault: {listing(ours)}; the cell stays as it was.")
-    unread = [one.submission for one in found if one.status == "rejected"]
+    unread = [one.submission for one in found if one.status == "rejected" and not one.adjustments]
     if unread:
         notes.append(f"Could not be read, scored 0: {listing(unread)}; a human should look.")
     waiting = sum(one.provisional for one in found)

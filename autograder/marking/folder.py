@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from difflib import get_close_matches
 from pathlib import Path
 
 import msgspec
 
+from autograder import __version__
 from autograder.course import Course
+from autograder.errors import UsageError
 from autograder.marking.answers import Answer, answers
 from autograder.marking.marks import Mark, read_marks
+from autograder.marking.members import Members, read_members
 from autograder.marking.merging import merged
 from autograder.marking.overrides import FILE as OVERRIDES
-from autograder.marking.overrides import check_overrides, read_overrides
+from autograder.marking.overrides import TOTAL, Override, called, check_overrides, read_overrides
+from autograder.marking.spreadsheets import plain
 from autograder.marking.tables import refuse
 from autograder.verdicts import Result
 from autograder.writing import write_whole
@@ -75,13 +80,15 @@ def decided(
     """
     course = course or stored_course(out) or Course()
     marks, overrides = read_marks(out), read_overrides(out)
-    repointed = merged(stored, course=course)
-    complaints = check_overrides(overrides, repointed)
+    members = read_members(out)
+    everybody = (*stored, *absent(overrides, stored, members))
+    complaints = check_overrides(overrides, merged(everybody, course=course), members.aside)
     if strict:
         refuse(out / OVERRIDES, complaints)
     bad = {line for line, _ in complaints}
     notes = [f"{out / OVERRIDES}, line {line}, changes nothing: {reason}." for line, reason in complaints if complete]
-    results = merged(stored, marks, [one for one in overrides if one.line not in bad], course)
+    notes += _misses(course, everybody, members, strict=strict) if complete else []
+    results = merged(everybody, marks, [one for one in overrides if one.line not in bad], course)
     lost = sorted({name for name, _ in marks} - {result.submission for result in stored})
     if lost and complete:
         notes.append(f"Marks are kept for {', '.join(lost[:3])}{', ...' * (len(lost) > 3)}, without a result here.")
@@ -93,6 +100,43 @@ def decided(
             f"{', '.join(f'{one.submission} ({one.question})' for one in stale[:5])}{', ...' * (len(stale) > 5)}."
         )
     return Decided(results, tuple(stored), course, marks, tuple(notes))
+
+
+def absent(overrides: Sequence[Override], stored: Sequence[Result], members: Members) -> list[Result]:
+    """Make a result for everybody of the roster who handed in nothing and was given a total by hand."""
+    there = called(stored)
+    wanted = {plain(one.student) for one in overrides if one.stage == TOTAL and plain(one.student) not in there}
+    return [
+        Result(
+            submission=name,
+            student_id=name,
+            status="rejected",
+            message="Nothing was handed in.",
+            score=0.0,
+            max_score=0.0,
+            confinement="",
+            seed=0,
+            grader_version=__version__,
+            fingerprint="",
+            seconds=0.0,
+        )
+        for name in members.roster
+        if plain(name) in wanted
+    ]
+
+
+def _misses(course: Course, results: Sequence[Result], members: Members, *, strict: bool) -> list[str]:
+    """Say which keys of [extensions] fit nobody; a slip of the pen is an error where all of the class is known."""
+    known = {*called(results), *map(plain, members.roster), *map(plain, members.aside)}
+    missed = [name for name in course.extensions if plain(name) not in known]
+    said = []
+    for name in missed:
+        near = get_close_matches(plain(name), known, 1)
+        guess = f"; did you mean {near[0]}?" if near else ""
+        said.append(f"[extensions] {name} fits no submission or student id{guess}")
+        if strict and (near or members.roster):
+            raise UsageError(f"{said[-1]}{'' if near else '; the roster has nobody of this id.'}")
+    return [one if one.endswith("?") else f"{one}." for one in said]
 
 
 def stored_course(out: Path) -> Course | None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
-from autograder.marking.spreadsheets import bare
+from autograder.marking.spreadsheets import bare, plain
 from autograder.marking.tables import number, read_table, refuse
 from autograder.verdicts import Result
 
@@ -58,30 +58,42 @@ def read_overrides(out: Path) -> tuple[Override, ...]:
 
 def whose(overrides: Sequence[Override], results: Sequence[Result]) -> dict[str, list[Override]]:
     """Give each submission its overrides, by its name or by the student's id; unknown students are left out."""
-    by_name = {result.submission: result.submission for result in results}
-    by_id: dict[str, list[str]] = {}
-    for result in results:
-        if result.student_id:
-            by_id.setdefault(result.student_id, []).append(result.submission)
+    known = called(results)
     found: dict[str, list[Override]] = {}
     for override in overrides:
-        names = [by_name[override.student]] if override.student in by_name else by_id.get(override.student, [])
-        for name in names:
+        for name in known.get(plain(override.student), ()):
             found.setdefault(name, []).append(override)
     return found
 
 
-def check_overrides(overrides: Sequence[Override], results: Sequence[Result]) -> list[tuple[int, str]]:
-    """List line and reason of every override that changes nothing or too much: unknown, beyond the maximum, twice."""
-    names = {result.submission for result in results} | {result.student_id for result in results if result.student_id}
+def called(results: Sequence[Result]) -> dict[str, list[str]]:
+    """Return which submissions go by a name that people may type: their own, or else the student's id."""
+    found: dict[str, list[str]] = {}
+    for result in results:
+        if result.student_id:
+            found.setdefault(plain(result.student_id), []).append(result.submission)
+    return found | {plain(result.submission): [result.submission] for result in results}
+
+
+def check_overrides(
+    overrides: Sequence[Override], results: Sequence[Result], aside: Collection[str] = ()
+) -> list[tuple[int, str]]:
+    """List line and reason of every override that changes nothing or too much: unknown, beyond the maximum, twice.
+
+    A line about somebody who is kept aside changes nothing, and is right again when that upload comes back.
+    """
+    names = called(results)
     most = {stage.name: stage.max_score for result in results for stage in result.stages}
     bonus = {stage.name: stage.max_score for result in results for stage in result.stages if stage.bonus}
     whole = max((result.max_score for result in results), default=0.0) + sum(bonus.values())
     complaints = []
-    seen: dict[tuple[str, str], int] = {}
+    seen: dict[tuple[str, str], Override] = {}
     for one in overrides:
-        key = (one.student, one.stage)
-        if one.student not in names:
+        theirs = names.get(plain(one.student), [])
+        if not theirs and one.student in aside:
+            continue
+        before = next((seen[name, one.stage] for name in theirs if (name, one.stage) in seen), None)
+        if not theirs:
             near = get_close_matches(one.student, names, 1)
             guess = f"; did you mean {near[0]}" if near else ""
             complaints.append((one.line, f"there is no submission or student id {one.student!r}{guess}"))
@@ -91,7 +103,9 @@ def check_overrides(overrides: Sequence[Override], results: Sequence[Result]) ->
             complaints.append((one.line, f"{one.points:g} points, but {one.stage} has {most[one.stage]:g}"))
         elif one.stage == TOTAL and one.points > whole:
             complaints.append((one.line, f"{one.points:g} points, but there are {whole:g}, bonus included"))
-        elif key in seen:
-            complaints.append((one.line, f"{one.student} has an override of {one.stage} in line {seen[key]} already"))
-        seen.setdefault(key, one.line)
+        elif before is not None:
+            called_so = "" if before.student == one.student else f", as {before.student}"
+            reason = f"{one.student} has an override of {one.stage} in line {before.line} already{called_so}"
+            complaints.append((one.line, reason))
+        seen |= {(name, one.stage): one for name in theirs if (name, one.stage) not in seen}
     return complaints

@@ -15,6 +15,7 @@ from autograder.marking.spreadsheets import bare, cell, exact
 from autograder.marking.tables import Row, number, read_table, refuse
 
 FILE = "written.csv"
+LAST = ".written.last.csv"  # as the grader wrote it last, beside the one that people fill in
 COLUMNS = ("submission", "question", "max_points", "answer", "points", "comment")
 _LONGEST_CELL = 30_000  # a spreadsheet cuts a cell at 32,767 characters
 
@@ -68,6 +69,7 @@ def read_sheet(path: Path, answers: Sequence[Answer], key: Mapping[str, str] | N
     complaints: list[tuple[int, str]] = []
     empty: list[tuple[int, str]] = []
     found: dict[tuple[str, str], tuple[Mark, int]] = {}
+    last = _written(path.with_name(LAST)) if path.name == FILE else set()
     for row in rows:
         name = _submission(row["submission"], names, key or {})
         answer = known.get((name, row["question"]))
@@ -79,7 +81,9 @@ def read_sheet(path: Path, answers: Sequence[Answer], key: Mapping[str, str] | N
         elif answer is not None:
             points = number(row["points"])
             assert points is not None  # _problem looks at it
-            mark = Mark(name, answer.question, points, answer.most, bare(row["comment"]), digest(answer.text))
+            mark = Mark(name, answer.question, points, _most(row, answer), bare(row["comment"]), digest(answer.text))
+            if answer.mark is not None and tuple(row[column] for column in COLUMNS) in last:
+                mark = answer.mark  # nobody has filled this row in since it was written; the mark may be newer
             before = found.get(mark.key)
             if before is not None and before[0] != mark:
                 complaints.append((row.line, f"differs from line {before[1]}, which marks the same answer"))
@@ -95,7 +99,10 @@ def unread(path: Path, answers: Sequence[Answer], names: Mapping[str, str] | Non
     given = {(one.name, one.question): one for one in answers}
     back = {anonymous: submission for submission, anonymous in (names or {}).items()}
     by_submission = {(one.submission, one.question): one for one in answers}
+    known = _written(path.with_name(LAST))
     for row in read_table(path, ("submission", "question", "points", "comment")):
+        if tuple(row[name] for name in COLUMNS) in known:
+            continue  # as it was written last: nobody has filled it in since
         name = bare(row["submission"])
         one = given.get((name, row["question"])) or by_submission.get((back.get(name, name), row["question"]))
         points, comment = row["points"], bare(row["comment"])
@@ -103,10 +110,22 @@ def unread(path: Path, answers: Sequence[Answer], names: Mapping[str, str] | Non
             continue
         if one is None or one.mark is None:
             return True
-        value = number(points)
-        if value is None or abs(value - float(_points(one))) > 1e-9 or comment != one.mark.comment.strip():
+        value, most = number(points), _most(row, one)
+        scaled = value * one.most / most if value is not None and most else value
+        if scaled is None or abs(scaled - float(_points(one))) > 1e-6 or comment != one.mark.comment.strip():
             return True
     return False
+
+
+def _written(path: Path) -> set[tuple[str, ...]]:
+    """Return the rows of the sheet as the grader wrote it last; none where it has not."""
+    return {tuple(row[name] for name in COLUMNS) for row in read_table(path, COLUMNS)} if path.exists() else set()
+
+
+def _most(row: Row, answer: Answer) -> float:
+    """Return the maximum that points in a row are out of: what the sheet was written with, also where it changed."""
+    stated = number(row["max_points"])
+    return answer.most if stated is None or stated <= 0 else stated
 
 
 def _submission(text: str, names: set[str], key: Mapping[str, str]) -> str:
@@ -128,8 +147,8 @@ def _problem(row: Row, name: str, names: set[str], answer: Answer | None) -> str
     points = number(row["points"])
     if points is None:
         return f"points are {row['points'][:40]!r}, expected a number from 0 to {answer.most:g}"
-    if not 0 <= points <= answer.most:
-        return f"{points:g} points, but question {answer.question} has {answer.most:g}"
+    if not 0 <= points <= _most(row, answer):
+        return f"{points:g} points, but question {answer.question} has {_most(row, answer):g}"
     if len(row["comment"]) > LONGEST_COMMENT:
         return f"the comment is longer than {LONGEST_COMMENT} characters"
     return ""

@@ -131,8 +131,9 @@ def release(
     """
     labels = checked_mix(mix)
     try:
-        record = json.dumps({"term": term, "secret_check": secret.check(term), "format": 1}, indent=2) + "\n"
-        _check_record(out / RECORD, record, force)
+        stated = {"term": term, "secret_check": secret.check(term), "mix": dict(sorted(labels.items())), "format": 1}
+        record = json.dumps(stated, indent=2) + "\n"
+        _check_record(out / RECORD, stated, force)
         ledger = read_ledger(out / LEDGER) if (out / LEDGER).exists() else Ledger()
         tally: Counter[str] = Counter()
         ids = [student.student_id for student in students]
@@ -165,10 +166,22 @@ def release(
     )
 
 
-def _check_record(path: Path, record: str, force: bool) -> None:
-    if path.exists() and not force and path.read_text(encoding="utf-8") != record:
+def _check_record(path: Path, stated: Mapping[str, object], force: bool) -> None:
+    """Refuse to go on with other numbers than those that the folder was made with; an old record holds no mix."""
+    if not path.exists() or force:
+        return
+    try:
+        before = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError:
+        before = None
+    if not isinstance(before, dict):
+        raise UsageError(f"{path} is damaged; restore it from a copy, or --force to write it anew.")
+    other = "secret or term" if any(before.get(key) != stated[key] for key in ("term", "secret_check")) else ""
+    if not other and before.get("mix", stated["mix"]) != stated["mix"]:
+        other = f"mix of families ({', '.join(before['mix'])})"
+    if other:
         raise UsageError(
-            f"Release folder {path.parent.parent} was made with another secret or term; "
+            f"Release folder {path.parent.parent} was made with another {other}; "
             "choose another folder, or --force to add only the new students under this one."
         )
 

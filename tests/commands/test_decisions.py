@@ -180,12 +180,12 @@ def test_feedback_before_the_due_date_is_that_of_the_course(run: Run, out: Path,
 def test_an_interrupted_run_keeps_everybody_who_was_graded_before(
     run: Run, out: Path, upload: Path, graded: Any
 ) -> None:
-    """grades.csv holds all stored results of the uploads, and of nobody else."""
+    """grades.csv holds everybody who belongs to the folder, and nobody drops out by an interruption."""
     for name in ("ann", "bob"):
         (upload.parent / f"{name}.py").write_text("x = 1\n")
     graded.update(results=[answered("ann")], interrupted=True)
     assert run("grade", upload.parent, "-o", out)[0] == 130
-    assert list(rows(out / "grades.csv")) == ["ann", "bob"]
+    assert list(rows(out / "grades.csv")) == ["ann", "bob", "eve", "sam"]
 
 
 def test_only_merges_one_into_the_class(run: Run, out: Path, upload: Path, graded: Any) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from autograder.errors import UsageError
-from autograder.exports.marks import mark, same_maximum, value
+from autograder.exports.marks import mark, same_maximum
 from autograder.exports.pairing import Pairs, Person, listing, pair, remarks
 from autograder.exports.sheet import Row, Sheet, read_sheet
 from autograder.verdicts import Result
@@ -68,7 +68,7 @@ def fill_gradebook(
     pairs = pair(results, people, name, given)
     points = possible[column] if possible is not None else ""
     if not any_maximum:
-        same_maximum(pairs.by_line.values(), value(points), f"{name}: the column {headings[column]!r}")
+        same_maximum(pairs.by_line.values(), points, f"{name}: the column {headings[column]!r}")
     decimal = "," if sheet.separator != "," and possible is not None and _has_commas(possible) else "."
     excused = []
     for row in rows:

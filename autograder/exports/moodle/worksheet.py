@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from autograder.errors import UsageError
-from autograder.exports.marks import mark, same_maximum, value
+from autograder.exports.marks import decimal_sign, mark, same_maximum
 from autograder.exports.moodle.headings import Columns, columns, number_of
 from autograder.exports.pairing import Pairs, Person, pair, remarks
 from autograder.exports.sheet import Sheet, read_sheet
@@ -81,12 +81,12 @@ def fill_worksheet(
     for row in rows:
         result = pairs.by_line.get(row.line)
         maximum = row[places.maximum] if places.maximum >= 0 else ""
-        if "," in maximum:
-            decimal = ","
+        if maximum.strip():
+            decimal = decimal_sign(maximum)
         if result is None or result.score is None:
             continue
         if not any_maximum:
-            same_maximum([result], value(maximum), f"{name}, line {row.line}: the assignment")
+            same_maximum([result], maximum, f"{name}, line {row.line}: the assignment")
         sheet.write(row, places.grade, mark(result.score, decimal))
         if comments:
             sheet.write(row, places.comments, _comment(comments[result.submission]))
