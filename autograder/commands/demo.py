@@ -53,7 +53,8 @@ def command(out: Path, workers: int | None, allow_unconfined: bool) -> int:
     autograder demo
     autograder demo -o somewhere
     """
-    from autograder.commands.grade import exit_code, grade_and_report, make_folder
+    from autograder.commands._reporting import exit_code
+    from autograder.commands.grade import grade_and_report, make_folder
     from autograder.course import load_course
     from autograder.intake.submission import collect
     from autograder.reports.terminal import console, print_class
