@@ -81,7 +81,7 @@ MISTAKES = {
         REFERENCE
         + "\n\n_right, _calls = residual, []\n\ndef residual(x, graph):\n"
         + "    _calls.append(1)\n    return _right(x, graph) + 0.01 * len(_calls)\n",
-        "differently the second time",
+        "differently when the questions come in another order",
     ),
     "order": (
         "residual",
