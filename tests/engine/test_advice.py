@@ -15,7 +15,9 @@ OWN = "def gauss_newton_step(x, graph):\n    return my_graph.edges\n"
 
 def verdict(message: str) -> StageVerdict:
     """Make a verdict of a step that went wrong without a name."""
-    return StageVerdict("gauss_newton_step", "error", 0.0, 20.0, message=message, group="g")
+    return StageVerdict(
+        name="gauss_newton_step", status="error", score=0.0, max_score=20.0, bonus=False, message=message, group="g"
+    )
 
 
 def test_parameters_are_told_where_it_raised() -> None:
