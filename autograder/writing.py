@@ -34,6 +34,20 @@ def make_private(folder: Path) -> None:
         folder.chmod(0o700)
 
 
+def make_folder(out: Path) -> None:
+    """Make the folder for what a command writes, for its owner alone.
+
+    Raises
+    ------
+    UsageError
+        Where none can be made there.
+    """
+    try:
+        make_private(out)
+    except OSError as error:
+        raise UsageError(f"-o {out}: no folder can be made there ({error.strerror}); choose another.") from error
+
+
 def write_whole(path: Path, data: bytes) -> None:
     """Write a file so that a reader sees the old bytes or the new ones, never a part.
 

@@ -11,6 +11,7 @@ import sys
 import tempfile
 import traceback
 from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import partial
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from autograder.exports.gradescope.archive import Rules
     from autograder.intake.submission import Submission
     from autograder.reports.feedback import Policy
+    from autograder.sandbox.server import Server
     from autograder.verdicts import Result
 
 NAME = "submission"  # what the one submission is called; no student's name is needed for grading
@@ -39,36 +41,44 @@ class Graded:
 
 def main(arguments: Sequence[str]) -> int:
     """Grade what lies below ROOT; 0 where results.json holds the marks, 3 where it says that there are none."""
+    from autograder.sandbox.server import Server
+
+    root = Path(arguments[0]).resolve()
+    try:
+        with closing(Server()) as server:  # it loads while all else is imported and read
+            return _write(root, server)
+    except Exception:  # noqa: BLE001 - the last resort: run_autograder has left a results.json that says so
+        traceback.print_exc()
+        return 3
+
+
+def _write(root: Path, server: Server) -> int:
     from autograder.attempts import Attempts
     from autograder.exports.gradescope.archive import read_rules
     from autograder.exports.gradescope.results import results_json
     from autograder.reports.drawable import without_cases
     from autograder.writing import write_whole
 
-    root = Path(arguments[0]).resolve()
-    try:
-        rules = read_rules(root / "source" / "rules.json")
-        graded = grade_submission(root, rules)
-        written = partial(
-            results_json, policy=graded.policy, visibility=rules.visibility, course=graded.course, notes=graded.notes
-        )
-        attempt = Attempts()
-        data = attempt("writing its cases", written, graded.result) or written(without_cases(graded.result))
-        print(*attempt.flags, sep="\n", end="", file=sys.stderr)
-        (root / "results").mkdir(exist_ok=True)
-        write_whole(root / "results" / "results.json", data)
-    except Exception:  # noqa: BLE001 - the last resort: run_autograder has left a results.json that says so
-        traceback.print_exc()
-        return 3
+    rules = read_rules(root / "source" / "rules.json")
+    graded = grade_submission(root, rules, server)
+    written = partial(
+        results_json, policy=graded.policy, visibility=rules.visibility, course=graded.course, notes=graded.notes
+    )
+    attempt = Attempts()
+    data = attempt("writing its cases", written, graded.result) or written(without_cases(graded.result))
+    print(*attempt.flags, sep="\n", end="", file=sys.stderr)
+    (root / "results").mkdir(exist_ok=True)
+    write_whole(root / "results" / "results.json", data)
     if graded.result.score is None:
         print(graded.result.message, file=sys.stderr)
         return 3
     return 0
 
 
-def grade_submission(root: Path, rules: Rules) -> Graded:
-    """Grade the uploaded files as the course's rules say."""
+def grade_submission(root: Path, rules: Rules, server: Server | None = None) -> Graded:
+    """Grade the uploaded files as the course's rules say, in a fork server that may be starting already."""
     from autograder.course import load_course
+    from autograder.engine.exam import read_exam
     from autograder.engine.grade import Settings, grade
     from autograder.marking.lateness import policy_at
 
@@ -82,10 +92,11 @@ def grade_submission(root: Path, rules: Rules) -> Graded:
         seed=rules.seed, examples=rules.examples, workers=1, time_limit=rules.time_limit, fresh=True, **options
     )
     assigned, notes = assignment_of(root)
+    exam = read_exam(source / "exam") if (source / "exam").exists() else None
     with tempfile.TemporaryDirectory() as folder:
         submission = collected(root / "submission", Path(folder))
         given = {} if assigned is None else {submission.id: assigned}
-        run = grade([submission], course, settings, Path(folder) / "graded", assigned=given)
+        run = grade([submission], course, settings, Path(folder) / "graded", assigned=given, exam=exam, server=server)
     return Graded(run.results[0], notes, policy, course.title)
 
 

@@ -54,10 +54,11 @@ def command(out: Path, workers: int | None, allow_unconfined: bool) -> int:
     autograder demo -o somewhere
     """
     from autograder.commands._reporting import exit_code
-    from autograder.commands.grade import grade_and_report, make_folder
+    from autograder.commands.grade import grade_and_report
     from autograder.course import load_course
     from autograder.intake.submission import collect
     from autograder.reports.terminal import console, print_class
+    from autograder.writing import make_folder
 
     make_folder(out)
     copy_files(files("assignment"), out / "assignment")

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from autograder.engine.grade import Run
     from autograder.engine.run import Assigned
     from autograder.intake.submission import Submission
+    from autograder.sandbox.server import Server
     from autograder.verdicts import Result
 
 LEVELS = ("full", "seccomp", "none")
@@ -141,6 +142,9 @@ def command(
     Exit code: 0 done, whatever the marks; 2 nothing could be read; 3 something could not be graded
     through no fault of the student; 130 interrupted (results so far are kept).
     """
+    from autograder.commands._early import early_server
+
+    server = click.get_current_context().with_resource(early_server(paths, out, options["scheduler"]))
     from autograder.commands._class import secret_of
     from autograder.commands._contradiction import check_variants
     from autograder.commands._people import decide, people_of, report_missing
@@ -149,6 +153,7 @@ def command(
     from autograder.intake.submission import collect
     from autograder.marking.members import update_members
     from autograder.marking.owners import store_owners
+    from autograder.writing import make_folder
 
     course = load_course(course_file)
     if course_file is not None:
@@ -169,7 +174,7 @@ def command(
     for note in change.notes:
         say(note)
     merge = bool(only) or bool(change.staying)
-    run = grade_and_report(submissions, course, out, merge=merge, assigned=assigned, **options)
+    run = grade_and_report(submissions, course, out, merge=merge, assigned=assigned, server=server, **options)
     print_results(run.results, out, as_json)
     if people is not None and assigned is not None:
         report_missing(people, assigned, out, {one.student_id for one in run.results if one.student_id})
@@ -211,6 +216,7 @@ def grade_and_report(
     scheduler: str | None = None,
     merge: bool = False,
     assigned: Mapping[str, Assigned] | None = None,
+    server: Server | None = None,
 ) -> Run:
     """Grade with the course's settings but for those given, and write the reports into `out`.
 
@@ -252,24 +258,13 @@ def grade_and_report(
     }
     settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, scheduler=scheduler, **given)
     with progress() as report:
-        run = grade(submissions, course, settings, out, report, assigned, exam)
+        run = grade(submissions, course, settings, out, report, assigned, exam, server)
     results = stored_results(out) if run.results else ()
     record = msgspec.to_builtins(run.record)
     whole = not run.interrupted
     found, moved = write_all(out, results, record, course, feedback=feedback, strict=False, complete=whole)
     show_changes(moved, quiet=True)
     return replace(run, results=found.results)
-
-
-def make_folder(out: Path) -> None:
-    """Make the folder for the results, or say in one sentence why not."""
-    from autograder.errors import UsageError
-    from autograder.writing import make_private
-
-    try:
-        make_private(out)
-    except OSError as error:
-        raise UsageError(f"-o {out}: no folder can be made there ({error.strerror}); choose another.") from error
 
 
 def print_results(results: Sequence[Result], out: Path, as_json: bool) -> None:

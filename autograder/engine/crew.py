@@ -8,18 +8,20 @@ from autograder.engine.messages import Ready
 from autograder.engine.pool import LEVELS, Pool
 from autograder.engine.run import Settings
 from autograder.errors import SandboxError
+from autograder.sandbox.server import Server
 
 
-def crew(orders: Callable[[], bytes], settings: Settings, most: int) -> Pool:
+def crew(orders: Callable[[], bytes], settings: Settings, most: int, server: Server | None = None) -> Pool:
     """Choose the workers of a run, at most so many; they start when the pool is entered.
 
     The orders are asked for once, while the workers start. A single submission needs no process
-    between this one and the locked child: starting one would take longer than grading.
+    between this one and the locked child: starting one would take longer than grading. For it
+    `server` may be starting already.
     """
     if settings.scheduler is None and most == 1:
         from autograder.engine.here import Here  # noqa: PLC0415 - imported by whoever needs it only
 
-        return Here(orders)
+        return Here(orders, server)
     if settings.scheduler is None:
         from autograder.engine.local import LocalPool, default_workers  # noqa: PLC0415 - as above
 

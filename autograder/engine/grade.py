@@ -21,6 +21,7 @@ from autograder.engine.store import RunRecord, Store, versions
 from autograder.intake.submission import Submission
 from autograder.intake.written import written_answers
 from autograder.problems.variants import published
+from autograder.sandbox.server import Server
 from autograder.stages.catalogue import all_stages
 from autograder.verdicts import Result
 
@@ -35,6 +36,7 @@ def grade(
     on_progress: Callable[[Progress], None] = lambda _: None,
     assigned: Mapping[str, Assigned] | None = None,
     exam: Exam | None = None,
+    server: Server | None = None,
 ) -> Run:
     """Grade all submissions into a folder.
 
@@ -55,6 +57,8 @@ def grade(
     exam : Exam, optional
         The exam; without it the one that is kept in the folder, where it is what the settings ask for, else one is
         drawn while the workers start. It is kept in the folder before anything is graded.
+    server : Server, optional
+        A fork server that is starting already, for a run of one submission; whoever started it ends it.
 
     Returns
     -------
@@ -68,7 +72,7 @@ def grade(
     UsageError
         Where the output folder cannot be written, or the exam in it cannot be read.
     """
-    return _Grading(submissions, course, settings, Store(out), on_progress, assigned or {}, exam).run()
+    return _Grading(submissions, course, settings, Store(out), on_progress, assigned or {}, exam, server).run()
 
 
 class _Grading:
@@ -83,6 +87,7 @@ class _Grading:
         on_progress: Callable[[Progress], None],
         assigned: Mapping[str, Assigned],
         exam: Exam | None,
+        server: Server | None,
     ) -> None:
         self.began = time.perf_counter()
         self.submissions = sorted(submissions, key=lambda one: one.id)
@@ -96,6 +101,7 @@ class _Grading:
         self.shared = Shared()
         self.reused = 0
         self.level = self.locks = ""
+        self.server = server
         kept = kept_exam(store.out) if exam is None else exam
         self.exam = kept if exam or (kept and kept.asks_for(settings.seed, settings.examples)) else None
 
@@ -135,7 +141,8 @@ class _Grading:
 
     def _grade_the_rest(self) -> None:
         """Start workers and grade what has no result yet; the exam is drawn while they start, where it must be."""
-        with crew(self._orders, self.settings, len(self.submissions) - len(self.results)) as pool:
+        most = len(self.submissions) - len(self.results)
+        with crew(self._orders, self.settings, most, self.server) as pool:
             self.level = level_of(pool, self.settings)
             self.locks = "" if pool.confinement is None else f"{self.level}: {pool.confinement.detail}"
             jobs = [

@@ -20,6 +20,8 @@ class Here:
     ----------
     orders : callable
         Gives what a worker is told; asked while the fork server starts.
+    server : Server, optional
+        The fork server, where one was started before.
 
     Attributes
     ----------
@@ -29,15 +31,15 @@ class Here:
 
     has_a_processor_each = True
 
-    def __init__(self, orders: Callable[[], bytes]) -> None:
+    def __init__(self, orders: Callable[[], bytes], server: Server | None = None) -> None:
         self.orders = orders
         self.confinement: Ready | None = None
-        self._server: Server | None = None
+        self._server = server
         self._sandbox: Sandbox | None = None
 
     def __enter__(self) -> Here:
         """Start the fork server; it loads what submissions may use while the exam is read or drawn."""
-        self._server = Server()
+        self._server = self._server or Server()
         try:
             self._told = msgspec.msgpack.decode(self.orders(), type=Orders)
             self._plan = plan_of(self._told)

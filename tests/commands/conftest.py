@@ -43,6 +43,7 @@ def graded(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         on_progress: Any,
         assigned: Any = None,
         exam: Any = None,
+        server: Any = None,
     ) -> engine.Run:
         asked.update(submissions=submissions, course=course, settings=settings, assigned=assigned, exam=exam)
         if asked["raises"]:

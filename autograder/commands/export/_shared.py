@@ -90,8 +90,7 @@ def read(path: Path, what: str) -> bytes:
 
 def write(folder: Path, files: dict[str, bytes], notes: Iterable[str]) -> None:
     """Write files into a folder, each in one stroke; say what was written and what to know."""
-    from autograder.commands.grade import make_folder
-    from autograder.writing import write_whole
+    from autograder.writing import make_folder, write_whole
 
     make_folder(folder)
     for name, data in files.items():
@@ -112,8 +111,7 @@ def write_new(folder: Path, files: Mapping[str, bytes]) -> None:
 
 def write_tree(folder: Path, files: Mapping[str, bytes]) -> None:
     """Write a tree of files, each in one stroke."""
-    from autograder.commands.grade import make_folder
-    from autograder.writing import write_whole
+    from autograder.writing import make_folder, write_whole
 
     for name, data in files.items():
         make_folder((folder / name).parent)

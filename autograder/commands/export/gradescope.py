@@ -78,6 +78,7 @@ def command(
     from autograder.commands._people import people_of
     from autograder.commands.export._shared import read, say
     from autograder.course import load_course
+    from autograder.engine.exam import draw_exam
     from autograder.exports.gradescope.archive import MEMORY_MIB, Rules, autograder_zip
     from autograder.exports.gradescope.submitter import slim_roster
     from autograder.problems.ledger import ledger_text
@@ -104,6 +105,7 @@ def command(
         notes.append(f"{len(missing)} students of the roster have no variant: {', '.join(missing[:5])}.")
     data, origin = autograder_zip(
         rules,
+        exam=draw_exam(rules.seed, rules.examples).data,
         course=read(course_file, "a course file") if course_file is not None else b"",
         ledger=b"" if known is None else ledger_text(known),
         roster=slim_roster(students),

@@ -38,7 +38,13 @@ class Rules:
 
 
 def autograder_zip(
-    rules: Rules, *, course: bytes = b"", ledger: bytes = b"", roster: bytes = b"", lock: Path | None = None
+    rules: Rules,
+    *,
+    exam: bytes = b"",
+    course: bytes = b"",
+    ledger: bytes = b"",
+    roster: bytes = b"",
+    lock: Path | None = None,
 ) -> tuple[bytes, str]:
     """Pack the archive; return it with the origin of the versions in it.
 
@@ -46,6 +52,8 @@ def autograder_zip(
     ----------
     rules : Rules
         Written down at export, so that a later change of defaults changes no mark.
+    exam : bytes
+        The exam file: no student waits for a draw, and everybody sits the same exam for ever.
     course, ledger, roster : bytes
         The files of the course; empty where there are none. The secret of a term is never among them.
     lock : Path, optional
@@ -59,7 +67,7 @@ def autograder_zip(
     }
     here = resources.files(__package__ or "")
     files |= {name: (here / name).read_bytes() for name in SCRIPTS}
-    for name, data in (("course.toml", course), ("ledger.csv", ledger), ("roster.csv", roster)):
+    for name, data in (("exam", exam), ("course.toml", course), ("ledger.csv", ledger), ("roster.csv", roster)):
         if data:
             files[name] = data
     for package in PACKAGES:
