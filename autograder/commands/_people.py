@@ -28,6 +28,16 @@ _STAFF_NOTE = "Whose submission this is was told by the course staff"
 _LISTED = 5
 
 
+owner_option = click.option(
+    "--is",
+    "given",
+    multiple=True,
+    metavar="UPLOAD=ID",
+    help="Whose a submission is, by its name in grades.csv, where the uploads do not say or staff know better; "
+    "may be given again. It is remembered in OUT; UPLOAD= takes it back.",
+)
+
+
 def people_options(function: Function) -> Function:
     """Add what says whose each submission is, and on which numbers it is judged."""
     for option in (
@@ -46,14 +56,6 @@ def people_options(function: Function) -> Function:
             help="The class: says whose each submission is, and who has handed in nothing. Its student_id is the SID "
             "of Gradescope, the student of nbgrader, the folder's or file's name of plain folders. Canvas and Moodle "
             "have numbers of their own, so there the name says it, or a column canvas_id or moodle_id.",
-        ),
-        click.option(
-            "--is",
-            "given",
-            multiple=True,
-            metavar="UPLOAD=ID",
-            help="Whose a submission is, by its name in grades.csv, where the uploads do not say or staff know better; "
-            "may be given again. It is remembered in OUT; UPLOAD= takes it back.",
         ),
     ):
         function = option(function)

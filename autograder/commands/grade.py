@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import click
 
-from autograder.commands._people import people_options
+from autograder.commands._people import owner_option, people_options
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -53,6 +53,7 @@ POLICIES = ("full", "hint", "score")
     "[default: the course's, else derived from secret and term, else 0]",
 )
 @people_options
+@owner_option
 @click.option(
     "--examples", type=click.IntRange(1), metavar="N", help="Cases drawn a stage. [default: the course's, or 200]"
 )
