@@ -37,7 +37,7 @@ help:
 	@echo "make fuzz    throw a million random frames and 3,000 odd submissions at the grader, then fresh examples at the properties"
 	@echo "make mutants change the reference everywhere, one place at a time: does the exam notice?"
 	@echo "make hostile print which attacks of the hostile corpus get through, with the locks and without"
-	@echo "make crashes kill workers, fork servers and the grader fifty times, and compare what they leave"
+	@echo "make crashes kill workers, fork servers and the grader fifty times, interrupt it at 100 moments, and compare what they leave"
 	@echo "make lock    write requirements.lock anew from pyproject.toml"
 	@echo "make clean   remove everything that make made"
 	@echo ""
@@ -74,7 +74,7 @@ fuzz: $(VENV)/ready-dev
 	@$(PY) -m pytest -q --hypothesis-profile=fuzz -m "hypothesis and not slow"
 
 crashes: $(VENV)/ready-dev
-	@$(PY) -m pytest -q -s tests/engine/test_crashes.py
+	@MOMENTS=100 $(PY) -m pytest -q -s tests/engine/test_crashes.py tests/engine/test_signals.py
 
 mutants: $(VENV)/ready-mutants
 	@$(PY) -m tests.mutation

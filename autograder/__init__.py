@@ -11,5 +11,8 @@ if sys.argv[:1] == ["-m"]:
     sys.path[:] = [entry for entry in sys.path if os.path.realpath(entry or os.curdir) != _here]
     sys.path += [_own] * (_own == _here)
     os.environ["PYTHONSAFEPATH"] = "1"  # and so for every Python that this one starts
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # until the command line listens, Ctrl-C just ends
 
 __version__ = "0.1.0"

@@ -22,6 +22,7 @@ from autograder import __version__, commands
 from autograder.commands._limits import too_little
 from autograder.commands._streams import are_ours, make_safe
 from autograder.errors import AutograderError
+from autograder.lifeline import ENDING
 
 DONE, DEFECT, USAGE, OUR_FAULT, INTERRUPTED = 0, 1, 2, 3, 130
 
@@ -98,6 +99,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
             raise
         code = _say(f"An error of the grader itself ({type(error).__name__}), no fault of a student.", OUR_FAULT)
     if alone:
+        for number in ENDING:
+            signal.signal(number, signal.SIG_IGN)  # all is done: there is nothing left to interrupt
         _end_tracker()
     sys.exit(code)
 
@@ -131,7 +134,7 @@ def _run(arguments: Sequence[str]) -> int:
 
 def _hear_signals() -> None:
     """Let a request to end, or a terminal that closes, be what Ctrl-C is: all processes end, what is done is kept."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    for number in ENDING:
         if signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, signal.default_int_handler)
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import contextlib
 import multiprocessing
 import os
-import signal
-import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
@@ -18,9 +16,9 @@ import msgspec
 from autograder.engine.messages import Answer, Grade, Ready, Trouble, decode_message
 from autograder.engine.pool import GIVEN_UP, MAX_LOSSES, Done
 from autograder.errors import SandboxError
+from autograder.lifeline import postponed
 from autograder.sandbox.kernel import ONE_THREAD
 
-_MAIN = threading.main_thread()  # the only one that may set signal handlers
 MAX_STARTS = 4  # workers in a row that end before they are ready, before the run is given up
 MAX_FRAME = 64 * 1024 * 1024
 
@@ -205,16 +203,14 @@ class LocalPool:
 def _as_a_worker() -> Iterator[None]:
     """Give what a process inherits from its start on: one thread for numpy, and no ear for Ctrl-C.
 
-    Ctrl-C is the client's to handle, even while a worker still imports.
+    Ctrl-C is the client's to handle, even while a worker still imports; the client hears it a moment later.
     """
     before = {name: os.environ.get(name) for name in ONE_THREAD}
     os.environ.update(ONE_THREAD)
-    handler = signal.signal(signal.SIGINT, signal.SIG_IGN) if threading.current_thread() is _MAIN else None
     try:
-        yield
+        with postponed():
+            yield
     finally:
-        if handler is not None:
-            signal.signal(signal.SIGINT, handler)
         for name, value in before.items():
             if value is None:
                 del os.environ[name]

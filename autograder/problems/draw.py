@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from hypothesis.errors import HypothesisWarning
 from hypothesis.strategies import SearchStrategy
 
+from autograder.lifeline import postponed
 from autograder.problems.cases import Case, key, simplicity
 from autograder.problems.ladders import Ladder
 from autograder.problems.strategies import STRATEGIES, square
@@ -114,7 +115,8 @@ def _generate(strategy: SearchStrategy[Case], count: int, number: int) -> list[C
     def collect(cases: tuple[Case, ...]) -> None:
         drawn.extend(cases)
 
-    with warnings.catch_warnings():
+    # Hypothesis would take an interruption for a fault of what it runs; a rung is drawn in less than 0.1 s.
+    with warnings.catch_warnings(), postponed():
         warnings.simplefilter("ignore", HypothesisWarning)
         collect()
     return drawn
