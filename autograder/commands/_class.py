@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from autograder.problems.ledger import Ledger
     from autograder.problems.roster import Student
     from autograder.problems.secret import Secret
+    from autograder.render.grading import Grading
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 Draws = Callable[[int, int, str], None]
@@ -54,6 +55,23 @@ def mix_of(families: Sequence[str], course: Course) -> dict[str, int]:
     from autograder.problems.drawing import checked_mix
 
     return checked_mix(Counter(families or course.families))
+
+
+def grading_of(course: Course) -> Grading:
+    """Take from a course what its students are told before they hand in; a title that nobody chose stays ours."""
+    from autograder.course import Course
+    from autograder.marking.merging import WRITTEN, question_maxima
+    from autograder.render.grading import Grading
+
+    named = {} if course.title == Course().title else {"title": course.title}
+    return Grading(
+        points={name: course.points[name] for name in course.stages},
+        questions=question_maxima(course, course.points[WRITTEN]),
+        follow_through=course.follow_through,
+        due=course.due,
+        zone=course.zone,
+        **named,
+    )
 
 
 def secret_of(term: str | None, secret_file: Path | None) -> Secret | None:

@@ -1,4 +1,4 @@
-"""Which exam a run of `grade` takes: the one that is named, the one that its folder keeps, or a new one."""
+"""Which exam a run takes: the one that is named, the one that its folder keeps, or a new one."""
 
 from __future__ import annotations
 
@@ -53,3 +53,27 @@ def exam_for(out: Path, named: Path | None, seed: int | None, examples: int | No
         f"everybody is graded again, on {new}."
     )
     return exam
+
+
+def shared_exam(path: Path, seed: int, examples: int, *, force: bool) -> str:
+    """Draw the exam of a class into a file that its graders share; return what they should know, "" if nothing.
+
+    An exam that is there stays: somebody may have graded with it, and another version of Hypothesis draws another.
+
+    Raises
+    ------
+    UsageError
+        Where the exam that is there cannot be used.
+    """
+    from autograder.engine.exam import draw_exam, read_exam, save_exam
+
+    if path.exists() and not force:
+        there = read_exam(path)
+        if there.asks_for(seed, examples):
+            return ""
+        return (
+            f"{path} was left, with seed {there.seed} and {there.examples} cases a stage; today it would be drawn "
+            f"with seed {seed} and {examples}. --force draws it again."
+        )
+    save_exam(draw_exam(seed, examples), path)
+    return ""

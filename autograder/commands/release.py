@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -52,23 +53,26 @@ def command(
     """Give every student of a class a problem with numbers of their own.
 
     Writes DIR/students/ID/ and DIR/zips/ID.zip to hand out, and DIR/staff/ to keep: variants.csv, which
-    grading reads, keys.csv, and the worked solution of every student. Nothing of staff/ is in a student's
-    folder. The same roster, term and secret give the same numbers; running it again changes nothing.
+    grading reads, keys.csv, the exam that all graders share, and the worked solution of every student. Nothing
+    of staff/ is in a student's folder. The same roster, term and secret give the same numbers; running it again
+    changes nothing. With --course, handout and notebook tell the course's title, points, share and due date.
 
     \b
     python3 -c 'import secrets; print(secrets.token_hex(32))' > secret.txt
     autograder release --roster class.csv --term 2026S --secret-file secret.txt -o release
     autograder release --roster class.csv --term 2026S --secret-file secret.txt --family B --family C -o release
     """
-    from autograder.commands._class import demand_of, mix_of, secret_of
+    from autograder.commands._class import demand_of, grading_of, mix_of, secret_of
+    from autograder.commands._exam import shared_exam
     from autograder.commands._progress import shown
     from autograder.course import load_course
     from autograder.engine.local import default_workers
-    from autograder.problems.release import LEDGER, release
+    from autograder.problems.release import EXAM, LEDGER, release
     from autograder.problems.roster import read_roster
     from autograder.render.handout import render_folder
 
-    mix = mix_of(families, load_course(course_file))
+    course = load_course(course_file)
+    mix = mix_of(families, course)
     students = read_roster(roster)
     secret = secret_of(term, secret_file)
     assert secret is not None  # both options are required
@@ -80,7 +84,7 @@ def command(
             term,
             mix,
             out,
-            render=render_folder,
+            render=partial(render_folder, grading=grading_of(course)),
             render_key=worked_solution,
             accept=demand.accept,
             notes={"mistakes.txt": demand.text()},
@@ -89,18 +93,24 @@ def command(
             on_draw=shown(stack, "drawing", "drew"),
             on_progress=shown(stack, "writing", "wrote"),
         )
-    click.echo(done.text())
+    exam = out / EXAM
+    seed = secret.seed(term) if course.seed is None else course.seed
+    note = shared_exam(exam, seed, course.examples, force=force)
+    click.echo("\n".join(filter(None, [done.text(), note])))
     click.echo(
         f"\nTo hand out: {out / 'zips'}, or {out / 'students'}. For staff: {out / 'staff'}; keep variants.csv safe.\n"
-        f"When they hand in: {_grading(roster, term, secret_file, families, out / LEDGER, course_file)}"
+        f"When they hand in: {_grading(roster, term, secret_file, families, out / LEDGER, course_file, exam)}"
     )
 
 
-def _grading(roster: Path, term: str, secret: Path, families: Sequence[str], ledger: Path, course: Path | None) -> str:
+def _grading(
+    roster: Path, term: str, secret: Path, families: Sequence[str], ledger: Path, course: Path | None, exam: Path
+) -> str:
     """Return the whole command that grades what is handed in, to be pasted into a shell."""
     parts: list[tuple[str, object]] = [("--roster", roster), ("--term", term), ("--secret-file", secret)]
     parts += [("--family", name) for name in families]
     parts += [("--ledger", ledger)] + ([("--course", course)] if course is not None else [])
+    parts.append(("--exam", exam))
     words = [word for option, value in parts for word in (option, str(value))]
     return f"autograder grade UPLOADS {shlex.join(words)} -o graded"
 

@@ -33,11 +33,12 @@ from autograder.problems.variants import Variant
 
 Render = Callable[[Problem], Mapping[str, str]]
 
-__all__ = ["LEDGER", "Released", "release"]
+__all__ = ["EXAM", "LEDGER", "Released", "release"]
 
 STAFF = "staff"
 LEDGER = f"{STAFF}/variants.csv"
 RECORD = f"{STAFF}/release.json"
+EXAM = f"{STAFF}/exam"
 STUDENTS = "students"
 ZIPS = "zips"
 ZIP_TIME = (1980, 1, 1, 0, 0, 0)  # the earliest that a zip can hold: the same files give the same bytes

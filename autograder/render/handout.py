@@ -11,6 +11,7 @@ from typing import Any
 
 from autograder.problems.problem import Problem
 from autograder.render import figure, landmarks
+from autograder.render.grading import Grading
 from autograder.render.notebook import render_notebook
 from autograder.render.page import printable
 from autograder.render.stub import reference_source, stub_module, stubs
@@ -22,15 +23,22 @@ __all__ = ["PROVIDED", "render_assignment", "render_folder", "write_files"]
 PROVIDED = ("posegraph.py", "self_check.py")
 
 
-def render_assignment(problem: Problem) -> dict[str, str]:
+def render_assignment(problem: Problem, grading: Grading | None = None) -> dict[str, str]:
     """Render the files that depend on the problem, and the pictures of the handout.
+
+    Parameters
+    ----------
+    problem : Problem
+        The numbers of the student.
+    grading : Grading, optional
+        Title, points and due date of the course; without it the defaults hold.
 
     Returns
     -------
     dict
         File name -> text.
     """
-    words = values(problem)
+    words = values(problem, grading)
     pictures = _pictures(problem)
     notebooks = {**words, **_carried()}
     told = {f"{name.removesuffix('.svg')}_text": _alternative(picture) for name, picture in pictures.items()}
@@ -45,9 +53,9 @@ def render_assignment(problem: Problem) -> dict[str, str]:
     }
 
 
-def render_folder(problem: Problem) -> dict[str, str]:
+def render_folder(problem: Problem, grading: Grading | None = None) -> dict[str, str]:
     """Render a complete folder for a student: the rendered files and the provided ones."""
-    return {**{name: provided(name) for name in PROVIDED}, **render_assignment(problem)}
+    return {**{name: provided(name) for name in PROVIDED}, **render_assignment(problem, grading)}
 
 
 @cache

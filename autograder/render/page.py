@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from functools import cache, lru_cache
-from html import unescape
+from html import escape, unescape
 from itertools import zip_longest
 from math import ceil
 from typing import Any
@@ -52,7 +52,12 @@ def printable(markdown: str, pictures: Mapping[str, str] | None = None) -> str:
     """
     heading, _, _ = markdown.removeprefix("# ").partition("\n")
     body = _parser().render(markdown, {"pictures": pictures or {}})
-    return fill("page.html.j2", title=heading.replace("`", ""), body=body)
+    return fill("page.html.j2", title=_plain(heading), body=body)
+
+
+def _plain(heading: str) -> str:
+    """Return a heading as text: without code marks, what was escaped as itself, safe in HTML."""
+    return escape(re.sub(r"\\(.)", r"\1", re.sub(r"(?<!\\)`", "", heading)), quote=False)
 
 
 @cache

@@ -15,6 +15,7 @@ from autograder.problems.ladders import GRAPHS
 from autograder.problems.problem import Problem
 from autograder.render import landmarks
 from autograder.render.facts import BY_HAND, TWIN, row_by_hand, solve_worked
+from autograder.render.grading import Grading
 from autograder.render.stub import CORE, graph_source, start_source
 from autograder.render.template import source
 
@@ -30,23 +31,15 @@ PLAN = (
     ("question 2", 25),
     ("question 3", 25),
 )
-POINTS = {
-    "residual": 15,
-    "jacobian": 15,
-    "information_matrix": 10,
-    "normal_equations": 20,
-    "gauss_newton_step": 20,
-    "second_step": 10,
-}
 WORDS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
-ANSWER_POINTS = {"iterates": 3, "conclusion": 2, "written_2": 2, "written_3": 3, "bonus": 5}
-
-FOLLOW_THROUGH = 1.0  # share of the points of a step that is right once the functions it calls are
 OLDEST_PYTHON = "3.9"  # on which a student's files run
 
 
-def values(problem: Problem) -> dict[str, Any]:
-    """Collect everything that a template may name. Nothing of it is an answer about this problem."""
+def values(problem: Problem, grading: Grading | None = None) -> dict[str, Any]:
+    """Collect everything that a template may name. Nothing of it is an answer about this problem.
+
+    `grading` is what the course says of titles, points and dates; without it the defaults hold.
+    """
     graph = problem.graph
     worked = solve_worked()
     return {
@@ -61,10 +54,7 @@ def values(problem: Problem) -> dict[str, Any]:
             for k, (true, start) in enumerate(zip(problem.truth, problem.start, strict=True))
         ],
         "plan": PLAN,
-        "points": POINTS,
-        "answer_points": ANSWER_POINTS,
-        "all_points": sum(POINTS.values()) + sum(ANSWER_POINTS.values()) - ANSWER_POINTS["bonus"],
-        "followed": "all" if FOLLOW_THROUGH == 1 else f"{number(100 * FOLLOW_THROUGH)} %",
+        **(grading or Grading()).words(),
         "oldest_python": OLDEST_PYTHON,
         "explore_minutes": 60,
         **_counted(),

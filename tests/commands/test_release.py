@@ -11,6 +11,7 @@ import pytest
 
 from autograder.commands._class import demand_of, drawn_ledger, known_mistakes
 from autograder.course import load_course
+from autograder.engine.exam import read_exam
 from autograder.problems.discriminating import unseen
 from autograder.problems.hand_solution import hand_solution
 from autograder.problems.roster import read_roster
@@ -75,6 +76,7 @@ def test_staff_get_what_they_mark_with(release: Callable[..., Ended], tmp_path: 
     assert {path.name for path in staff.iterdir()} == {
         "variants.csv",
         "keys.csv",
+        "exam",
         "release.json",
         "mistakes.txt",
         "solutions",
@@ -86,7 +88,46 @@ def test_staff_get_what_they_mark_with(release: Callable[..., Ended], tmp_path: 
         assert variant.identifier in (staff / "worked" / f"{variant.student_id}.html").read_text("utf-8")
         assert json.loads((staff / "worked" / f"{variant.student_id}.ipynb").read_text("utf-8"))["nbformat"] == 4
     assert (staff / "mistakes.txt").read_text().startswith("Family A shows ")
-    assert SECRET not in "".join(path.read_text("utf-8") for path in staff.rglob("*") if path.is_file())
+    assert SECRET not in "".join(path.read_text("utf-8", "replace") for path in staff.rglob("*") if path.is_file())
+
+
+def test_handout_and_notebook_tell_what_the_course_says(release: Callable[..., Ended], tmp_path: Path) -> None:
+    """Title, points, share and due date are the course's, in all three pages that a student reads."""
+    (tmp_path / "course.toml").write_text(
+        'title = "ROB-5: walks & loops"\n[points]\nresidual = 12.5\nanswers = 10\nwritten = 0\nrange_factor = 3\n'
+        "[grading]\nfollow_through = 0.25\n[late]\ndue = 2026-12-04T22:59:00Z\nzone = 'Europe/Berlin'\n"
+    )
+    release("--course", tmp_path / "course.toml")
+    folder = tmp_path / "release" / "students" / "s1"
+    handout = (folder / "README.md").read_text("utf-8")
+    cells = json.loads((folder / "slam1d.ipynb").read_text("utf-8"))["cells"]
+    notebook = "".join("".join(cell["source"]) for cell in cells)
+    page = (folder / "handout.html").read_text("utf-8")
+    rows = ("| `residual` | 12.5 |", "| `iterates` | 6 |", "| `conclusion` | 4 |", "| **together** | **97.5** |")
+    for text in (handout, notebook):
+        assert text.startswith("# ROB-5: walks & loops\n")
+        assert "Friday, 4 December 2026, 23:59 (Europe/Berlin, UTC+01:00)" in text
+        assert [row for row in (*rows, "| bonus: `range_factor` (see `explore.ipynb`) | 3 |") if row not in text] == []
+        assert "your words for question" not in text
+    assert "it keeps 25 % of its points" in handout
+    assert "A mistake is paid for once" not in handout
+    assert "<title>ROB-5: walks &amp; loops</title>" in page
+    assert "Friday, 4 December 2026" in page
+
+
+def test_the_graders_share_one_exam(release: Callable[..., Ended], run: Run, tmp_path: Path) -> None:
+    """It lies beside the keys, is the one that `grade` would draw, stays as it is, and the printed command takes it."""
+    exam = tmp_path / "release" / "staff" / "exam"
+    out = release()[1]
+    assert f"--exam {exam}" in out
+    held = read_exam(exam)
+    assert (held.seed, held.examples) == (Secret(SECRET.encode()).seed(TERM), 200)
+    (tmp_path / "course.toml").write_text("[grading]\nseed = 7\nexamples = 3\n")
+    _, out, _ = release("--course", tmp_path / "course.toml")
+    assert f"{exam} was left, with seed {held.seed} and 200 cases a stage" in out
+    assert read_exam(exam).digest == held.digest
+    release("--course", tmp_path / "course.toml", "--force")
+    assert (read_exam(exam).seed, read_exam(exam).examples) == (7, 3)
 
 
 def test_running_it_again_changes_nothing(release: Callable[..., Ended], tmp_path: Path) -> None:

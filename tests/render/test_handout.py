@@ -5,6 +5,7 @@ import re
 
 import pytest
 
+from autograder.commands._class import grading_of
 from autograder.course import Course
 from autograder.problems.families import family
 from autograder.problems.problem import worked_problem
@@ -12,10 +13,10 @@ from autograder.problems.secret import Secret
 from autograder.problems.variants import draw_variant
 from autograder.render import values as values_module
 from autograder.render.facts import solve
+from autograder.render.grading import Grading
 from autograder.render.handout import render_assignment, render_folder
 from autograder.render.solution import render_solution
 from autograder.render.stub import reference_source, stubs
-from autograder.render.values import ANSWER_POINTS, POINTS
 from tests.render.another import another_problem
 from tests.render.prose import NAMES, STUDENTS, TEMPLATES, prose
 
@@ -32,16 +33,12 @@ def answers(problem):
 
 def test_the_points_are_those_of_the_course():
     """Points in the handout agree with the defaults of the course file, for every stage that it has."""
-    told = {
-        **POINTS,
-        "answers": ANSWER_POINTS["iterates"] + ANSWER_POINTS["conclusion"],
-        "written": ANSWER_POINTS["written_2"] + ANSWER_POINTS["written_3"],
-        "sparsity_pattern": ANSWER_POINTS["bonus"],
-        "range_factor": ANSWER_POINTS["bonus"],
-    }
-    points = Course().points
-    assert set(POINTS) <= set(points)
-    assert {name: told[name] for name in points} == dict(points)
+    told = grading_of(Course()).words()
+    assert told == Grading().words()
+    answers = {"iterates": "3", "conclusion": "2", "written_2": "2", "written_3": "3"}
+    assert told["answer_points"] == answers
+    functions = {**told["points"], **told["bonus_points"], "answers": "5", "written": "5"}
+    assert {name: float(points) for name, points in functions.items()} == dict(Course().points)
     rows = re.findall(r"^\| (.*?) \| (\S+) \| (.*?) \|$", GRADED, re.MULTILINE)
     earned = [int(row[1]) for row in rows if row[1].isdigit()]
     assert sum(earned) == 100
