@@ -60,6 +60,7 @@ def mix_of(families: Sequence[str], course: Course) -> dict[str, int]:
 def grading_of(course: Course) -> Grading:
     """Take from a course what its students are told before they hand in; a title that nobody chose stays ours."""
     from autograder.course import Course
+    from autograder.marking.clock import clock
     from autograder.marking.merging import WRITTEN, question_maxima
     from autograder.render.grading import Grading
 
@@ -68,8 +69,7 @@ def grading_of(course: Course) -> Grading:
         points={name: course.points[name] for name in course.stages},
         questions=question_maxima(course, course.points[WRITTEN]),
         follow_through=course.follow_through,
-        due=course.due,
-        zone=course.zone,
+        due="" if course.due is None else clock(course.due, course.zone),
         **named,
     )
 

@@ -80,14 +80,14 @@ def grade_submission(root: Path, rules: Rules, server: Server | None = None) -> 
     from autograder.course import load_course
     from autograder.engine.exam import read_exam
     from autograder.engine.grade import Settings, grade
-    from autograder.marking.lateness import policy_at
+    from autograder.marking.showing import shown_at
 
     source = root / "source"
     course_file = source / "course.toml"
     course = load_course(course_file if course_file.exists() else None)
     course = replace(course, memory_mib=min(course.memory_mib, rules.memory_mib))
-    policy = rules.feedback or policy_at(course, datetime.now(UTC))
-    options: dict[str, Any] = {"feedback": policy, "min_confinement": rules.min_confinement}
+    shown = shown_at(course, datetime.now(UTC), rules.feedback)
+    options: dict[str, Any] = {"feedback": shown.policy, "min_confinement": rules.min_confinement}
     settings = Settings(
         seed=rules.seed, examples=rules.examples, workers=1, time_limit=rules.time_limit, fresh=True, **options
     )
@@ -97,7 +97,7 @@ def grade_submission(root: Path, rules: Rules, server: Server | None = None) -> 
         submission = collected(root / "submission", Path(folder))
         given = {} if assigned is None else {submission.id: assigned}
         run = grade([submission], course, settings, Path(folder) / "graded", assigned=given, exam=exam, server=server)
-    return Graded(run.results[0], notes, policy, course.title)
+    return Graded(run.results[0], (*notes, *filter(None, [shown.later])), shown.policy, course.title)
 
 
 def collected(uploaded: Path, folder: Path) -> Submission:

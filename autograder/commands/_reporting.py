@@ -34,14 +34,20 @@ def write_all(
     from datetime import UTC, datetime
 
     from autograder.marking.folder import decided, store_course
-    from autograder.marking.lateness import policy_at
+    from autograder.marking.showing import shown_at
     from autograder.reports.changes import changes, read_totals, write_changes
     from autograder.reports.folder import write_reports
 
     before = read_totals(out / "grades.csv")
     found = decided(out, stored, course, strict=strict, complete=complete)
-    shown = feedback or policy_at(course, datetime.now(UTC))
-    write_reports(found.results, out, record, stages=course.stages, feedback=shown, course=course.title)
+    shown = shown_at(course, datetime.now(UTC), feedback)
+    write_reports(
+        *(found.results, out, record),
+        stages=course.stages,
+        feedback=shown.policy,
+        course=course.title,
+        later=shown.later,
+    )
     _write_answers(out, found, anonymous)
     store_course(out, course)
     for note in found.notes:

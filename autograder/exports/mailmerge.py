@@ -23,6 +23,7 @@ def mailmerge(
     *,
     policy: Policy = "full",
     course: str = "1D SLAM",
+    later: str = "",
     given: Mapping[str, str] | None = None,
 ) -> tuple[str, list[str]]:
     """Lay out the table; return it with what a human should know.
@@ -40,6 +41,8 @@ def mailmerge(
         How much the feedback says.
     course : str
         Title of the homework.
+    later : str
+        What students are told of what follows, and when.
     given : mapping, optional
         Submission -> student id, where a human has decided.
     """
@@ -64,7 +67,7 @@ def mailmerge(
     writer.writerow(COLUMNS)
     for result in results:
         student = owner.get(result.submission)
-        text = feedback_text(result, policy, course).rstrip("\n")
+        text = feedback_text(result, policy, course, later).rstrip("\n")
         first, _, rest = text.partition("\n")
         writer.writerow(
             [

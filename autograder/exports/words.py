@@ -17,8 +17,8 @@ WIDTH = 100
 _SILENT = ("passed", "awaiting_mark")
 
 
-def feedback_text(result: Result, policy: Policy = "full", course: str = "1D SLAM") -> str:
-    """Write a student's feedback as text that ends with a newline.
+def feedback_text(result: Result, policy: Policy = "full", course: str = "1D SLAM", later: str = "") -> str:
+    """Write a student's feedback as text that ends with a newline; `later` says what follows, and when.
 
     Examples
     --------
@@ -33,7 +33,7 @@ def feedback_text(result: Result, policy: Policy = "full", course: str = "1D SLA
       Hint: Which pose does the factor predict?
     """
     lines = [f"{visible(course)}: {total(result)}"]
-    lines += _wrapped(general(result), "")
+    lines += _wrapped(general(result), "") + _wrapped(visible(later), "")
     for each in result.adjustments:
         lines += _wrapped(visible(each.said), "")
     for stage in result.stages:

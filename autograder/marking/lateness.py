@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from datetime import UTC, datetime, timedelta, timezone, tzinfo
 from zoneinfo import ZoneInfo
 
-from autograder.course import Course, Feedback
+from autograder.course import Course
 from autograder.marking.spreadsheets import plain
 from autograder.marking.zones import meant, zone_of
 from autograder.verdicts import Result
@@ -142,13 +142,3 @@ def penalised(score: float, days: int, course: Course, maximum: float) -> tuple[
         return score, ""
     after = max(0.0, score - days * course.late_per_day / 100 * maximum)
     return round(after, 6), f"{told}: {course.late_per_day:g} % of {maximum:g} points for each begun day"
-
-
-def policy_at(course: Course, now: datetime) -> Feedback:
-    """Return how much students are shown at a time: less as long as somebody may still hand in."""
-    if course.before_due is None or course.due is None:
-        return course.feedback
-    last = max([course.due, *course.extensions.values()]) + timedelta(
-        days=course.late_days or 0, minutes=course.grace_minutes
-    )
-    return course.before_due if now < last else course.feedback

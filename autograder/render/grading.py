@@ -5,13 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from datetime import datetime, timedelta
 from typing import Any
-from zoneinfo import ZoneInfo
 
 from autograder.stages import answers, catalogue, written
 
-__all__ = ["Grading", "clock"]
+__all__ = ["Grading"]
 
 TITLE = "1D SLAM by weighted least squares"
 _MARKS = re.compile(r"([\\`*_$\[\]<>|])")  # what Markdown, a formula or a table would take for its own
@@ -31,18 +29,15 @@ class Grading:
         Points of the written answers, by question.
     follow_through : float
         Share of its points that a step keeps which is right by itself, where an earlier function is wrong.
-    due : datetime or None
-        When the homework is due; None: the handout does not say.
-    zone : str
-        Time zone in which that is told; "" for that of `due`.
+    due : str
+        When the homework is due, in words; "": the handout does not say.
     """
 
     title: str = TITLE
     points: Mapping[str, float] = field(default_factory=catalogue.points)
     questions: Mapping[str, float] = field(default_factory=lambda: {"2": 2.0, "3": 3.0})
     follow_through: float = 1.0
-    due: datetime | None = None
-    zone: str = ""
+    due: str = ""
 
     def words(self) -> dict[str, Any]:
         """Return what the templates name: points as texts, without what the course does not use."""
@@ -61,34 +56,8 @@ class Grading:
             "all_points": _points(whole),
             "followed": "all" if self.follow_through == 1 else f"{_points(100 * self.follow_through)} %",
             "follows": self.follow_through > 0,
-            "due": "" if self.due is None else clock(self.due, self.zone),
+            "due": self.due,
         }
-
-
-def clock(when: datetime, zone: str = "") -> str:
-    """Write a moment for readers, in a zone that is named or in its own.
-
-    Examples
-    --------
-    >>> clock(datetime.fromisoformat("2026-11-20T22:59:00+00:00"), "Europe/Berlin")
-    'Friday, 20 November 2026, 23:59 (Europe/Berlin, UTC+01:00)'
-    >>> clock(datetime.fromisoformat("2026-11-20T22:59:00+00:00"))
-    'Friday, 20 November 2026, 22:59 (UTC)'
-    """
-    there = when.astimezone(ZoneInfo(zone)) if zone else when
-    offset = there.utcoffset() or timedelta(0)
-    sign, minutes = "-" if offset < timedelta(0) else "+", abs(offset) // timedelta(minutes=1)
-    utc = f"UTC{sign}{minutes // 60:02}:{minutes % 60:02}" if minutes else "UTC"
-    date = f"{_DAYS[there.weekday()]}, {there.day} {_MONTHS[there.month - 1]} {there.year}"
-    return f"{date}, {there:%H:%M} ({f'{zone}, ' if zone else ''}{utc})"
-
-
-# Not strftime's names: those are the machine's language.
-_DAYS = ("Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday")
-_MONTHS = (
-    *("January", "February", "March", "April", "May", "June"),
-    *("July", "August", "September", "October", "November", "December"),
-)
 
 
 def _points(value: float) -> str:

@@ -9,14 +9,14 @@ from autograder.reports.feedback import Policy, feedback_page
 from autograder.verdicts import Result
 
 
-def drawable(result: Result, policy: Policy = "full", course: str = "1D SLAM") -> tuple[Result, str]:
+def drawable(result: Result, policy: Policy = "full", course: str = "1D SLAM", later: str = "") -> tuple[Result, str]:
     """Return a result with its page; without its cases, and with a flag, where these cannot be drawn."""
     attempt = Attempts()
-    page = attempt("drawing its page", feedback_page, result, policy, course)
+    page = attempt("drawing its page", feedback_page, result, policy, course, later)
     if page is not None:
         return result, page
     bare = replace(without_cases(result), flags=(*result.flags, *attempt.flags))
-    return bare, feedback_page(bare, policy, course)
+    return bare, feedback_page(bare, policy, course, later)
 
 
 def without_cases(result: Result) -> Result:

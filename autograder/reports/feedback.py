@@ -59,7 +59,7 @@ class Lost:
     drawn: Drawn | None
 
 
-def feedback_page(result: Result, policy: Policy = "full", course: str = "1D SLAM") -> str:
+def feedback_page(result: Result, policy: Policy = "full", course: str = "1D SLAM", later: str = "") -> str:
     """Write the page of one student.
 
     Parameters
@@ -70,6 +70,8 @@ def feedback_page(result: Result, policy: Policy = "full", course: str = "1D SLA
         How much is shown.
     course : str
         Title of the homework.
+    later : str
+        A sentence that says what follows, and when; "" where this is all.
     """
     lost = []
     for stage in result.stages:
@@ -80,7 +82,8 @@ def feedback_page(result: Result, policy: Policy = "full", course: str = "1D SLA
         lost.append(Lost(stage, failed, drawn(shown) if shown and policy == "full" else None))
     passed = [(stage.name, check) for stage in result.stages for check in stage.checks if check.passed]
     notes = shown_notes(result, policy)
-    return page("feedback.html.j2", result=result, policy=policy, course=course, lost=lost, passed=passed, notes=notes)
+    told = {"policy": policy, "course": course, "later": later, "notes": notes}
+    return page("feedback.html.j2", result=result, lost=lost, passed=passed, **told)
 
 
 def shown_notes(result: Result, policy: Policy) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ def write_reports(
     stages: Sequence[str] = (),
     feedback: Policy = "full",
     course: str = "1D SLAM",
+    later: str = "",
 ) -> None:
     """Write grades.csv, report.html and a page a student.
 
@@ -39,13 +40,15 @@ def write_reports(
         How much a student's page shows.
     course : str
         Title of the homework.
+    later : str
+        What students are told of what follows, and when.
     """
     pages = out / "feedback"
     make_private(pages)
     write_gradebook(results, out / "grades.csv", stages)
     shown = []
     for result in results:
-        drawn, text = drawable(result, feedback, course)
+        drawn, text = drawable(result, feedback, course, later)
         shown.append(drawn)
         write_whole(pages / f"{result.submission}.html", text.encode())
     write_whole(out / "report.html", class_page(shown, record, course).encode())

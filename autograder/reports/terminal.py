@@ -13,6 +13,7 @@ from typing import TextIO
 from rich.console import Console
 from rich.text import Text
 
+from autograder.reports.apart import apart
 from autograder.reports.summary import StageSummary, mean_score, stage_names, stage_summaries, troubles, waiting
 from autograder.reports.wording import MARKS, plural, points, visible
 from autograder.verdicts import Result, StageVerdict
@@ -56,7 +57,10 @@ def class_table(results: Sequence[Result], width: int) -> list[Text]:
     longest = max([len(visible(r.submission)) for r in results] + [10])
     status = max([len(r.status) for r in results] + [len("status")])
     room = width - sum(widths) - len(widths) - status - 2 - 8
+    ids = [r.submission for r in results]
     name_width = max(_NAMES_AT_LEAST, min(longest, room, _NAMES_AT_MOST))
+    name_width = max([name_width, *map(len, apart(ids, name_width).values())])
+    names = apart(ids, name_width)
     marks_width = sum(widths) + len(widths)
 
     lines = []
@@ -73,7 +77,7 @@ def class_table(results: Sequence[Result], width: int) -> list[Text]:
         lines.append(line)
     lines.append(_rule(name_width + marks_width + status + 10))
     for result in results:
-        line = Text(visible(result.submission, name_width).ljust(name_width))
+        line = Text(names[result.submission].ljust(name_width))
         if result.status == "graded":
             for cell, name, wide in zip(cells[result.submission], stages, widths, strict=True):
                 line.append(" " + cell.rjust(wide), style=_style(result, name))

@@ -1,8 +1,8 @@
-"""Overrides, times, policies and comparisons."""
+"""Overrides, times, settings and comparisons."""
 
 from __future__ import annotations
 
-from datetime import UTC, datetime, timedelta
+from datetime import UTC, datetime
 from pathlib import Path
 
 import msgspec
@@ -12,7 +12,7 @@ from autograder.course import Course
 from autograder.errors import UsageError
 from autograder.marking.comparing import moved
 from autograder.marking.folder import decided, store_course, stored_course
-from autograder.marking.lateness import moment, policy_at
+from autograder.marking.lateness import moment
 from autograder.marking.overrides import check_overrides, read_overrides
 from tests.marking.written import answered
 from tests.reports.examples import stage
@@ -72,15 +72,6 @@ def test_times_are_read_as_platforms_write_them(text: str, expected: str | None)
     """A time without a zone is one of the course's; what is no time is none."""
     found = moment(text, UTC)
     assert (found.isoformat() if found else None) == expected
-
-
-def test_students_are_shown_less_until_nobody_can_hand_in() -> None:
-    """The last extension and the late days count."""
-    course = Course(before_due="score", due=DUE, late_days=2, extensions={"ann": DUE + timedelta(days=7)})
-    assert policy_at(course, DUE) == "score"
-    assert policy_at(course, DUE + timedelta(days=8)) == "score"
-    assert policy_at(course, DUE + timedelta(days=9, minutes=1)) == "full"
-    assert policy_at(Course(before_due="hint"), DUE) == "full"
 
 
 def test_the_settings_in_force_are_kept(tmp_path: Path) -> None:

@@ -24,18 +24,19 @@ class Graded:
     results: tuple[Result, ...]
     policy: Policy
     course: str
+    later: str = ""
 
     def texts(self) -> dict[str, str]:
         """Return everybody's feedback as text."""
         from autograder.exports.words import feedback_text
 
-        return {one.submission: feedback_text(one, self.policy, self.course) for one in self.results}
+        return {one.submission: feedback_text(one, self.policy, self.course, self.later) for one in self.results}
 
     def pages(self) -> dict[str, bytes]:
         """Return everybody's page, with the marks that are exported."""
         from autograder.reports.drawable import drawable
 
-        return {one.submission: drawable(one, self.policy, self.course)[1].encode() for one in self.results}
+        return {one.submission: drawable(one, self.policy, self.course, self.later)[1].encode() for one in self.results}
 
 
 def graded_options(function: Function) -> Function:
@@ -68,14 +69,15 @@ def stored(out: Path, course_file: Path | None, feedback: str | None) -> Graded:
     from autograder.commands._reporting import say as note
     from autograder.commands.report import course_of, stored_results
     from autograder.marking.folder import decided
-    from autograder.marking.lateness import policy_at
+    from autograder.marking.showing import shown_at
 
     course = course_of(out, course_file)
     found = decided(out, stored_results(out), course)
     for each in found.notes:
         note(each)
-    policy: Any = feedback or policy_at(course, datetime.now(UTC))
-    return Graded(out, found.results, policy, course.title)
+    asked: Any = feedback
+    shown = shown_at(course, datetime.now(UTC), asked)
+    return Graded(out, found.results, shown.policy, course.title, shown.later)
 
 
 def read(path: Path, what: str) -> bytes:

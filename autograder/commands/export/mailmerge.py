@@ -44,6 +44,8 @@ def command(
 
     run = stored(out, course_file, feedback)
     students = read_roster(roster) if roster is not None else []
-    text, notes = mailmerge(run.results, students, policy=run.policy, course=run.course, given=decisions(given))
+    text, notes = mailmerge(
+        run.results, students, policy=run.policy, course=run.course, later=run.later, given=decisions(given)
+    )
     write_whole(path, text.encode())
     say(notes, [path])

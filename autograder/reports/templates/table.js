@@ -10,7 +10,8 @@ for (const table of document.querySelectorAll("table.class")) {
     return text !== "" && !Number.isNaN(Number(text)) ? Number(text) : text.toLowerCase();
   };
   const compare = (a, b) => {
-    if (typeof a === typeof b) { return a < b ? -1 : a > b ? 1 : 0; }
+    if (typeof a === "string" && typeof b === "string") { return a.localeCompare(b, undefined, { numeric: true }); }
+    if (typeof a === typeof b) { return a - b; }
     return typeof a === "number" ? -1 : 1;
   };
   for (const [column, head] of [...table.tHead.rows[0].cells].entries()) {
