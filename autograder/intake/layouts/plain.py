@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from autograder.intake.inside import problem_inside
 from autograder.intake.tree import HANDED_OUT, Entry, Tree, is_candidate
-from autograder.intake.upload import HOMEWORK, Upload
+from autograder.intake.upload import HOMEWORK, Upload, listing
 
 TITLE = "plain folder of files"
 
@@ -20,11 +22,14 @@ def recognise(tree: Tree) -> float:
 def gather(tree: Tree) -> list[Upload]:
     """Take every file that is a submission by its name or by what is inside; what is neither is reported.
 
-    Only what lies beside a file that has the homework's name goes with that one, as a figure does.
+    What lies beside a file that has the homework's name goes with that one, as a figure does; so does what is neither
+    and is called as the submission beside it: jane.html, printed of jane.ipynb.
     """
-    uploads = []
+    uploads: list[Upload] = []
     beside = Counter(entry.parts[:-1] for entry in tree.entries if is_candidate(entry))
     of_one = {entry.parts[:-1] for entry in tree.entries if is_candidate(entry) and _is_homework(entry)}
+    called = {_called(entry) for entry in tree.entries if is_candidate(entry)}
+    going_with: dict[tuple[str, ...], list[str]] = {}
     for entry in tree.entries:
         place = entry.parts[:-1]
         folder = entry.parts[-2] if len(entry.parts) > 1 else tree.name
@@ -35,10 +40,29 @@ def gather(tree: Tree) -> list[Upload]:
         elif entry.closed_folder or (
             place not in of_one and (beside[place] or not place) and entry.name.casefold() not in HANDED_OUT
         ):
-            name = re.sub(r"\.(?:py|ipynb)$", "", entry.stem, flags=re.IGNORECASE)  # of ada.py.txt
-            uploads.append(Upload(name=name, entry=entry, problem=problem_inside(entry), folder=folder))
+            problem = problem_inside(entry)
+            if problem and _called(entry) in called and not entry.closed_folder:
+                going_with.setdefault(_called(entry), []).append(entry.name)
+            else:
+                uploads.append(Upload(name=_called(entry)[-1], entry=entry, problem=problem, folder=folder))
     nothing = not any(is_candidate(entry) or entry.closed_folder for entry in tree.entries)
-    return [] if nothing and all(upload.problem for upload in uploads) else uploads
+    if nothing and all(upload.problem for upload in uploads):
+        return []
+    return [_with(upload, going_with) for upload in uploads]
+
+
+def _called(entry: Entry) -> tuple[str, ...]:
+    """Return where a file lies and what its submission is called: ada of ada.py.txt."""
+    return (*entry.parts[:-1], re.sub(r"\.(?:py|ipynb)$", "", entry.stem, flags=re.IGNORECASE))
+
+
+def _with(upload: Upload, going_with: Mapping[tuple[str, ...], Sequence[str]]) -> Upload:
+    """Say on a submission what was handed in beside it under its name, so that no file is dropped in silence."""
+    entry = upload.entry
+    names = going_with.get(_called(entry), ()) if entry is not None and is_candidate(entry) else ()
+    if entry is None or not names:
+        return upload
+    return replace(upload, notes=(f"Graded {entry.name}; also handed in and not graded: {listing(names)}.",))
 
 
 def _is_homework(entry: Entry) -> bool:

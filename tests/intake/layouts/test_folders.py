@@ -106,6 +106,16 @@ def test_a_plain_folder_names_submissions_by_their_stem(tmp_path: Path) -> None:
     assert list(by_id(tmp_path / "two")) == ["friday-alice", "monday-alice", "x", "y"]
 
 
+def test_a_page_beside_the_notebook_of_the_same_name_goes_with_it(tmp_path: Path) -> None:
+    """One student keeps one row, and the row says what else was there; a second notebook is a row of its own."""
+    files = {"jane.ipynb": notebook(cell()), "jane.html": "<html></html>", "jane.md": "# Notes", "bob.html": "<html>"}
+    found = by_id(write(tmp_path, files))
+    assert {name: bool(each.rejection) for name, each in found.items()} == {"jane": False, "bob": True}
+    assert found["jane"].notes[0] == "Graded jane.ipynb; also handed in and not graded: jane.html, jane.md."
+    two = by_id(write(tmp_path, {"jane.py.txt": CODE}))
+    assert sum(not each.rejection for each in two.values()) == 2
+
+
 def test_files_and_folders_of_students_may_stand_side_by_side(tmp_path: Path) -> None:
     """A folder with one submission in it names it; a folder of something else is nobody's."""
     write(tmp_path, {"alice.py": CODE, "bob.ipynb": "", "carol/hw.py": CODE, "figures/x.png": "", "dave/x.py": CODE})
