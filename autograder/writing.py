@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 
@@ -46,6 +47,8 @@ def make_folder(out: Path) -> None:
         make_private(out)
     except OSError as error:
         raise UsageError(f"-o {out}: no folder can be made there ({error.strerror}); choose another.") from error
+    if not os.access(out, os.W_OK):
+        raise UsageError(f"-o {out}: the folder cannot be written; choose another.")
 
 
 def write_whole(path: Path, data: bytes) -> None:
@@ -66,7 +69,8 @@ def write_whole(path: Path, data: bytes) -> None:
             draft.chmod(mode)
         draft.replace(path)
     except OSError as error:
-        draft.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):  # a disk that became read-only keeps its drafts, too
+            draft.unlink(missing_ok=True)
         raise UsageError(f"{path} could not be written ({error.strerror}); what was there before is kept.") from None
 
 

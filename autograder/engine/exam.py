@@ -60,7 +60,8 @@ class Exam:
     drawn_with : dict
         The versions that drew it, for readers; nothing depends on them.
     digest : str
-        SHA-256 of the body of the file.
+        Identifies what is asked: homework, seed and cases. Answers are not part of it, for their last bits are those
+        of the processor that worked them out; the file as a whole has a checksum beside it.
     answers : dict
         For each check what a verdict needs: right answers and how far one may be off, worked out once.
     laid_out_by, layout : str, bytes
@@ -121,8 +122,8 @@ def draw_exam(seed: int, examples: int) -> Exam:
         layout=layout,
     )
     packed = zlib.compress(msgspec.msgpack.encode(body), 1)
-    digest = hashlib.sha256(packed).hexdigest()
-    return _exam(body, digest, _MAGIC + b"%d\n%s\n" % (FORMAT, digest.encode()) + packed)
+    checksum = hashlib.sha256(packed).hexdigest()
+    return _exam(body, _MAGIC + b"%d\n%s\n" % (FORMAT, checksum.encode()) + packed)
 
 
 def read_exam(path: Path) -> Exam:
@@ -156,8 +157,8 @@ def exam_of(data: bytes, name: str) -> Exam:
             f"{name} is an exam of format {first.removeprefix(_MAGIC)[:9].decode('ascii', 'replace')}, and this "
             f"autograder reads format {FORMAT}; grade with the version that drew it, or {_AGAIN}."
         )
-    digest, _, packed = rest.partition(b"\n")
-    if hashlib.sha256(packed).hexdigest().encode() != digest:
+    checksum, _, packed = rest.partition(b"\n")
+    if hashlib.sha256(packed).hexdigest().encode() != checksum:
         raise UsageError(
             f"{name} is damaged: its checksum does not fit. Take another copy of the file, or remove it and {_AGAIN}."
         )
@@ -172,7 +173,7 @@ def exam_of(data: bytes, name: str) -> Exam:
             f"{name} was drawn for another edition of {HOMEWORK}, whose stages or checks were others; "
             f"grade with the version that drew it, or {_AGAIN}."
         )
-    return _exam(body, digest.decode(), data)
+    return _exam(body, data)
 
 
 def kept_exam(out: Path) -> Exam | None:
@@ -228,14 +229,15 @@ def _unpacked(data: bytes) -> bytes:
     return found
 
 
-def _exam(body: _Body, digest: str, data: bytes) -> Exam:
+def _exam(body: _Body, data: bytes) -> Exam:
+    asked = msgspec.msgpack.encode([body.homework, body.content, body.seed, body.examples, body.corpus])
     return Exam(
         homework=body.homework,
         content=body.content,
         seed=body.seed,
         examples=body.examples,
         drawn_with=body.drawn_with,
-        digest=digest,
+        digest=hashlib.sha256(asked).hexdigest(),
         data=data,
         answers=body.answers,
         laid_out_by=body.laid_out_by,

@@ -6,7 +6,6 @@ from which `outputs` rebuilds numbers and bounded words.
 
 from __future__ import annotations
 
-import resource
 import secrets
 from collections.abc import Collection
 from types import TracebackType
@@ -131,6 +130,8 @@ class Sandbox:
 
 def _memory_bound() -> str:
     """Name a bound on memory that this process has been started with: it may be why a child could not live."""
+    import resource  # noqa: PLC0415 - not on every system, and there nothing bounds memory
+
     soft, _ = resource.getrlimit(resource.RLIMIT_AS)
     if soft == resource.RLIM_INFINITY:
         return ""

@@ -25,7 +25,7 @@ WRONG = REFERENCE + "".join(
 STEPS = {
     "the remarks": (describe, "remarks"),
     "the group": (describe, "digest"),
-    "the name": (describe.Describer, "_slip"),
+    "the name": (describe.Describer, "_named"),
     "the case": (describe, "_case"),
     "the facts": (explain, "_facts"),
     "the probes": (explain, "_probed"),

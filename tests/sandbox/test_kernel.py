@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from autograder.engine.exam import exam_of
 from autograder.sandbox.host import Server
 from autograder.sandbox.kernel import ONE_THREAD, kernel_settings
 from tests.engine import small_class
@@ -90,7 +91,8 @@ def _graded(folder: Path, name: str, program: list[str], kernel: str | None) -> 
     words = ["grade", str(folder / "uploads"), "-o", str(folder / name), "--examples", "5", "--time-limit", "10"]
     subprocess.run([*program, *words], env=environment, check=True, capture_output=True)
     run = small_class.agreed(folder / name)
-    return {path: data for path, data in run.items() if path != "run.json"}
+    asked = exam_of(run.pop("exam"), "exam").digest.encode()  # its answers have the last bits of who worked them out
+    return {path: data for path, data in {**run, "exam": asked}.items() if path != "run.json"}
 
 
 @pytest.mark.slow
