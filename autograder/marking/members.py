@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -89,7 +90,7 @@ def update_members(
     aside = tuple(sorted((set(old.aside) - here) | set(gone)))
     _write(out, Members(sources=sources, aside=aside, roster=tuple(roster) or old.roster))
     for name in gone:
-        (out / "feedback" / f"{name}.html").unlink(missing_ok=True)
+        _remove(out / "feedback" / f"{name}.html")
     notes = []
     if gone:
         notes.append(
@@ -123,8 +124,8 @@ def forget(out: Path, names: Sequence[str]) -> None:
             aside = f"; kept aside are {_some(record.aside)}" if record.aside else ""
             raise UsageError(f"--forget {name}: {out} holds no submission of this name{aside}.")
     for name in names:
-        (out / "results" / f"{name}.json").unlink(missing_ok=True)
-        (out / "feedback" / f"{name}.html").unlink(missing_ok=True)
+        _remove(out / "results" / f"{name}.json")
+        _remove(out / "feedback" / f"{name}.html")
     dropped = set(names)
     sources = {name: paths for name, paths in record.sources.items() if name not in dropped}
     left = tuple(name for name in record.aside if name not in dropped)
@@ -151,3 +152,9 @@ def _submissions(names: Sequence[str], one: str, many: str) -> str:
 
 def _some(names: Sequence[str]) -> str:
     return ", ".join(names[:_LISTED]) + (", ..." if len(names) > _LISTED else "")
+
+
+def _remove(path: Path) -> None:
+    """Remove a file, where there is one; a name that this locale cannot spell names none that it could have written."""
+    with contextlib.suppress(UnicodeEncodeError):
+        path.unlink(missing_ok=True)
