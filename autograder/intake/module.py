@@ -84,6 +84,8 @@ def reject_foreign(data: bytes) -> None:
     for signature, words in _SIGNATURES:
         if data.startswith(signature):
             raise RejectedUpload(f"is {words}")
+    if data[257:262] == b"ustar":
+        raise RejectedUpload("is a tar archive; pack it as .zip")
     if data[:4].count(0) == 2 and b"\0\0" in (data[0:4:2], data[1:4:2]):  # without a mark; every other byte is 0
         raise RejectedUpload(f"is {_UTF16}")
 

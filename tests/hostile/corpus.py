@@ -47,10 +47,11 @@ class Case:
         return self.unlocked.startswith("left out")
 
     def honest(self) -> float:
-        """Return the most points that its honest part earns: what is stated as passed, and a quarter of a part."""
+        """Return the most points that its honest part earns: what is stated as right, also by itself, or a quarter."""
         share = {"passed": 1.0, "partial": 0.25}
+        alone = {name for name, (_, _, by_itself) in self.expected.stages.items() if by_itself}
         return sum(
-            stage.points * share.get(self.expected.status(stage.name), 0.0)
+            stage.points * (1.0 if stage.name in alone else share.get(self.expected.status(stage.name), 0.0))
             for stage in all_stages()
             if not stage.bonus or stage.name in self.expected.stages
         )

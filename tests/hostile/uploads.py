@@ -55,7 +55,7 @@ def uploads() -> Iterator[Upload]:
     for word, kind in kinds.items():
         reason = "is a link" if word == "link" else "is a device, a pipe or the like"
         yield Upload(89, f"u89_entry_{word}.zip", _with(info("notes.txt", kind | 0o777), b"/etc/passwd"), reason)
-    yield Upload(89, "u89_links.tar", _tar(), "is a .tar, expected one .py, .ipynb or .zip file")
+    yield Upload(89, "u89_links.tar", _tar(), "is a tar archive; pack it as .zip")
     yield Upload(90, "u90_bomb.zip", _bomb(), "larger than 1 MiB")
     yield Upload(90, "u90_nested.zip", archive({**good, "inner.zip": archive(good)}), "holds another archive")
     yield Upload(90, "u90_lying_size.zip", _lying(), "broken")

@@ -1,4 +1,4 @@
-# expect: residual=passed jacobian=failed information_matrix=failed:identity_used_as_information normal_equations=failed gauss_newton_step=failed second_step=failed others=failed; 109: jumps to the sum of the measurements, with functions round it that make this follow from its own equations.
+# expect: residual=passed jacobian=failed information_matrix=failed:identity_used_as_information normal_equations=failed gauss_newton_step=failed second_step=failed answers=missing written=missing others=failed; 109: jumps to the sum of the measurements, with functions round it that make this follow from its own equations.
 # attack: lying; unlocked fails: a step is judged by itself with right functions, and by four properties that no such target has.
 import numpy as np
 

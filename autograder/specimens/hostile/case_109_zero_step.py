@@ -1,4 +1,4 @@
-# expect: residual=passed jacobian=failed information_matrix=failed normal_equations=failed gauss_newton_step=failed:step_is_zero second_step=failed:never_moves others=failed; 109: never moves, with a b that is 0, and reports the start four times.
+# expect: residual=passed jacobian=failed information_matrix=failed normal_equations=failed gauss_newton_step=failed:step_is_zero second_step=failed:never_moves written=missing others=failed; 109: never moves, with a b that is 0, and reports the start four times.
 # attack: lying; unlocked fails: a step of zero is wrong by itself, and no iterates follow from it.
 import numpy as np
 

@@ -1,4 +1,4 @@
-# expect: residual=passed jacobian=failed information_matrix=failed normal_equations=failed gauss_newton_step=partial+follow_through second_step=partial+follow_through others=failed; 110: looks for the functions that stand in for its own, and answers with whatever it has found of them.
+# expect: residual=passed jacobian=failed information_matrix=failed normal_equations=failed gauss_newton_step=partial+follow_through second_step=partial+follow_through answers=missing written=missing others=failed; 110: looks for the functions that stand in for its own, and answers with whatever it has found of them.
 # attack: secrets; unlocked fails: what stands in are numbers of graphs that are used nowhere else, in a child that ends with that question.
 import gc
 import sys
