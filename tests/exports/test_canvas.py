@@ -51,11 +51,12 @@ def test_only_our_column_changes() -> None:
 @given(st.lists(st.floats(0, 90, width=16), min_size=3, max_size=3), st.permutations([101, 102, 199]))
 def test_marks_come_back(scores: list[float], ids: list[int]) -> None:
     """What was written is read again to four decimals; filling the filled file changes nothing."""
+    gradebook = GRADEBOOK.replace(b"Student, Test", b"Student, Tess")
     results = [
         replace_score(result(f"s{number}", student_id=str(number)), score)
         for number, score in zip(ids, scores, strict=True)
     ]
-    filled = fill_gradebook(GRADEBOOK, "g.csv", results, assignment="77").data
+    filled = fill_gradebook(gradebook, "g.csv", results, assignment="77").data
     found = imported(filled)
     assert all(abs(float(found[str(number)]) - score) < 5.1e-5 for number, score in zip(ids, scores, strict=True))
     assert fill_gradebook(filled, "g.csv", results, assignment="77").data == filled
@@ -109,8 +110,34 @@ def test_what_is_left_alone_is_said() -> None:
     filled = fill_gradebook(GRADEBOOK, "g.csv", results, assignment="1D SLAM (77)")
     assert imported(filled.data) == {"101": "", "102": "0", "103": "EX", "199": ""}
     said = "\n".join(filled.notes)
-    for words in ("stranger", "Student, Test", "our fault: doejane_101", "scored 0: doejane_102", "Excused in Canvas"):
+    assert "Student, Test" not in said
+    for words in ("stranger", "our fault: doejane_101", "scored 0: doejane_102", "Excused in Canvas"):
         assert words in said
+
+
+@pytest.mark.parametrize("sis", ["", "u199"])
+def test_canvas_s_test_student_is_nobody(sis: str) -> None:
+    """Its work gets no mark and nobody waits for it; a student of that name whom the institution knows is one."""
+    gradebook = GRADEBOOK.replace(b'Test",199,,', f'Test",199,{sis},'.encode())
+    own = result("studenttest_199", account="Canvas 199")
+    filled = fill_gradebook(gradebook, "g.csv", [result("101"), own], assignment="77")
+    assert imported(filled.data)["199"] == ("90" if sis else "")
+    assert any("studenttest_199" in note for note in filled.notes) != bool(sis)
+    alone = fill_gradebook(gradebook, "g.csv", [result("101")], assignment="77")
+    assert any("Student, Test" in note for note in alone.notes) == bool(sis)
+
+
+@pytest.mark.parametrize("points", ["", '"1,000.00"', "1'000.00", '"1,000"'])
+def test_a_maximum_that_cannot_be_read_or_does_not_fit_is_refused(points: str) -> None:
+    """A row of possible points that is missing says nothing, and that is no consent."""
+    row = b"    Points Possible,,,,,,10,90,"
+    gradebook = GRADEBOOK.replace(row, row.replace(b"90,", f"{points},".encode()))
+    if not points:
+        gradebook = b"".join(line for line in GRADEBOOK.splitlines(True) if b"Points Possible" not in line)
+    with pytest.raises(UsageError, match=r"is out of 1000 points|has the maximum '1,000', which|states no maximum"):
+        fill_gradebook(gradebook, "g.csv", [result("101")], assignment="77")
+    filled = fill_gradebook(gradebook, "g.csv", [result("101")], assignment="77", any_maximum=True)
+    assert imported(filled.data)["101"] == "90"
 
 
 def without(column: str) -> bytes:

@@ -6,15 +6,20 @@ import csv
 import io
 import re
 import zipfile
+from pathlib import Path
 
 import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from autograder.commands._people import People, assign
 from autograder.errors import UsageError
 from autograder.exports.moodle.feedback import feedback_archive
 from autograder.exports.moodle.worksheet import fill_worksheet
+from autograder.intake.submission import collect
+from autograder.problems.roster import Student
+from tests.intake.making import CODE, write
 from tests.reports.examples import result, stage
 
 ENGLISH = (
@@ -22,14 +27,14 @@ ENGLISH = (
     '"Last modified (submission)","Last modified (grade)","Feedback comments"\n'
     '"Participant 41","Jane Doe",jane@uni.edu,"Submitted for grading",,90.00,Yes,"Monday, 2 March",-,\n'
     '"Participant 42","Jane Doe",jd2@uni.edu,"Submitted for grading",55.00,90.00,Yes,-,-,"=old, kept"\n'
-    '"Participant 43","Zoë O\'Neill_x",zoe@uni.edu,"No submission",,90.00,No,-,-,\n'
+    '"Participant 43","Zoë O\'Neill_x",zoe@uni.edu,"No submission",,90.00,Yes,-,-,\n'
 ).encode()
 GERMAN = (
     '\ufeffID;"Vollständiger Name";E-Mail-Adresse;Status;Bewertung;Bestwertung;"Bewertung kann geändert werden";'
     '"Zuletzt geändert (Abgabe)";"Zuletzt geändert (Bewertung)";"Feedback als Kommentar"\r\n'
     '"Teilnehmer/in41";"Jane Doe";jane@uni.edu;"Zur Bewertung abgegeben";;90,00;Ja;-;-;\r\n'
     '"Teilnehmer/in42";"Jane Doe";jd2@uni.edu;"Zur Bewertung abgegeben";55,00;90,00;Ja;-;-;"=alt, bleibt"\r\n'
-    '"Teilnehmer/in43";"Zoë O\'Neill_x";zoe@uni.edu;"Keine Abgabe";;90,00;Nein;-;-;\r\n'
+    '"Teilnehmer/in43";"Zoë O\'Neill_x";zoe@uni.edu;"Keine Abgabe";;90,00;Ja;-;-;\r\n'
 ).encode()
 LANGUAGES = {
     "en": (ENGLISH, "Identifier", "Grade", "Last modified (grade)"),
@@ -109,6 +114,66 @@ def test_comments_are_html_and_harmless() -> None:
     rows = list(csv.DictReader(io.StringIO(filled.data.decode())))
     assert rows[0]["Feedback comments"].startswith("<pre>=1+1 &amp; raised ValueError: &lt;script&gt;")
     assert rows[1]["Feedback comments"] == "=old, kept"
+
+
+def test_a_comment_that_is_there_stays() -> None:
+    """Somebody wrote it; our own is written again without a word."""
+    comments = {"41": "Well done.", "42": "Well done."}
+    results = [result("41"), result("42")]
+    filled = fill_worksheet(ENGLISH, "w.csv", results, comments=comments)
+    rows = list(csv.DictReader(io.StringIO(filled.data.decode())))
+    assert [row["Feedback comments"] for row in rows] == ["<pre>Well done.</pre>", "=old, kept", ""]
+    assert [row["Grade"] for row in rows] == ["90", "90", ""]
+    (note,) = (note for note in filled.notes if "comment" in note)
+    assert note.startswith("Have another comment already: 42; it stays.")
+    assert fill_worksheet(filled.data, "w.csv", results, comments=comments).data == filled.data
+
+
+@pytest.mark.parametrize("language", sorted(LANGUAGES))
+def test_a_line_that_cannot_be_changed_stays_and_is_listed(language: str) -> None:
+    """Moodle would skip it without a word: the mark is locked or overridden there."""
+    data = LANGUAGES[language][0]
+    locked = data.replace(b'90.00,Yes,-,-,"=old', b'90.00,No,-,-,"=old').replace(b'Ja;-;-;"=alt', b'Nein;-;-;"=alt')
+    assert locked != data
+    comments = {"41": "Well done.", "42": "Well done."}
+    filled = fill_worksheet(locked, "w.csv", [result("41"), result("42")], comments=comments)
+    assert imported(filled.data, language) == {"41": "90", "42": imported(data, language)["42"], "43": ""}
+    assert filled.data.splitlines()[2] == locked.splitlines()[2]
+    assert "Cannot be changed in Moodle: 42; the line stays as it was." in filled.notes
+    assert not any("comment" in note for note in filled.notes)
+
+
+@pytest.mark.parametrize(
+    ("folder", "line"),
+    [
+        ("Zoë ONeill_43", '"Participant 43","Zoë O\'Neill",zoe@uni.edu,,90.00'),
+        ("Team 1-Zoë ONeill_43", '"Participant 43","Zoë O\'Neill",zoe@uni.edu,,90.00'),
+        ("Participant_43", '"Participant 43",Participant 43,,,90.00'),
+    ],
+    ids=["a name that Moodle cleans", "a group", "blind marking"],
+)
+def test_with_a_roster_the_number_of_the_upload_finds_the_line(folder: str, line: str, tmp_path: Path) -> None:
+    """The result carries the roster's id, which Moodle does not know; the participant's number stands beside it."""
+    work = {f"{folder}_assignsubmission_file_/slam1d.py": CODE, "Ann Lee_8_assignsubmission_file_/slam1d.py": CODE}
+    uploads = collect([write(tmp_path / "class", work)])
+    said = {one.id: "s1003" for one in uploads if "43" in one.id} if "Participant" in folder else {}
+    assigned = assign(uploads, People([Student("s1003", "Zoë O'Neill"), Student("s1004", "Ann Lee")], None), said)
+    results = [
+        result(one.id, student_id=assigned[one.id].student_id, by=assigned[one.id].by, account=assigned[one.id].account)
+        for one in uploads
+    ]
+    assert {one.student_id for one in results} == {"s1003", "s1004"}
+    sheet = f'Identifier,"Full name","Email address",Grade,"Maximum grade"\n{line}\n"Participant 8",Ann Lee,,,90.00\n'
+    rows = list(csv.DictReader(io.StringIO(fill_worksheet(sheet.encode(), "w.csv", results).data.decode())))
+    assert [row["Grade"] for row in rows] == ["90", "90"]
+
+
+@pytest.mark.parametrize("maximum", ['"1,000.00"', '"1.000,00"', "1'000.00", ""])
+def test_another_maximum_is_seen_however_it_is_written(maximum: str) -> None:
+    """A hundred points are not written out of a thousand."""
+    sheet = f'Identifier,"Full name",Grade,"Maximum Grade"\n"Participant 43","Jane Doe",,{maximum}\n'
+    with pytest.raises(UsageError, match="is out of 1000 points|states no maximum"):
+        fill_worksheet(sheet.encode(), "w.csv", [result("43")])
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import click
 
 from autograder.commands.export._shared import graded_options
 
-_COLUMNS = ("identifier", "grade", "maximum", "name", "email", "comments")
+_COLUMNS = ("identifier", "grade", "maximum", "name", "email", "comments", "changeable")
 
 
 def _column_options(function: click.decorators.FC) -> click.decorators.FC:
@@ -28,7 +28,7 @@ def _column_options(function: click.decorators.FC) -> click.decorators.FC:
     metavar="CSV",
     help="The grading worksheet as Moodle exported it.",
 )
-@click.option("--comments", is_flag=True, help="Fill in the feedback comments, too.")
+@click.option("--comments", is_flag=True, help="Fill in the feedback comments, too, where there are none yet.")
 @click.option("--any-maximum", is_flag=True, help="Write the points even where Moodle has another maximum.")
 @_column_options
 @click.option(

@@ -32,7 +32,13 @@ KNOWN: Mapping[str, tuple[str, ...]] = {
         "Feedback comments", "Feedback als Kommentar", "Feedback par commentaires", "Comentarios de retroalimentación",
         "Commenti",
     ),
+    "changeable": (
+        "Grade can be changed", "Bewertung kann geändert werden", "La note peut être modifiée",
+        "La calificación puede ser cambiada", "La valutazione può essere modificata", "A nota pode ser alterada",
+        "Cijfer kan gewijzigd worden",
+    ),
 }  # fmt: skip
+_NO = {"no", "nein", "non", "não", "nee"}
 IDENTIFIER = re.compile(r"\D*(\d+)")
 _EXPORT = "download it again in Moodle: Assignment, View all submissions, Download grading worksheet"
 
@@ -47,6 +53,7 @@ class Columns:
     name: int = -1
     email: int = -1
     comments: int = -1
+    changeable: int = -1
     guessed: tuple[str, ...] = ()
 
 
@@ -90,6 +97,11 @@ def number_of(sheet: Sheet, row: Row, column: int) -> str:
     if match is None:
         raise sheet.wrong(row.line, f"{row[column]!r} is no identifier of a participant; {_EXPORT}")
     return match[1]
+
+
+def may_change(row: Row, column: int) -> bool:
+    """Say whether Moodle takes a new mark in this line; it skips one that is locked or overridden in its gradebook."""
+    return column < 0 or row[column].strip().casefold() not in _NO
 
 
 def _named(sheet: Sheet, headings: Sequence[str], name: str, given: str) -> int:

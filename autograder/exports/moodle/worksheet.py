@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 from autograder.errors import UsageError
 from autograder.exports.marks import decimal_sign, mark, same_maximum
-from autograder.exports.moodle.headings import Columns, columns, number_of
-from autograder.exports.pairing import Pairs, Person, pair, remarks
-from autograder.exports.sheet import Sheet, read_sheet
+from autograder.exports.moodle.headings import Columns, columns, may_change, number_of
+from autograder.exports.pairing import Pairs, Person, listing, pair, remarks
+from autograder.exports.sheet import Row, Sheet, read_sheet
 from autograder.verdicts import Result
 
 
@@ -38,7 +38,8 @@ def fill_worksheet(
     """Write scores into the grade column, and comments where they are given.
 
     Moodle skips a line whose mark was changed on the site after the worksheet was downloaded; so the
-    column with that time stays as it is.
+    column with that time stays as it is. A line that cannot be changed there stays as it is, and so does
+    a comment that somebody wrote; both are said.
 
     Parameters
     ----------
@@ -51,7 +52,7 @@ def fill_worksheet(
     comments : mapping, optional
         Submission -> text for the column of comments.
     headings : mapping, optional
-        identifier, grade, maximum, name, email or comments -> heading, where the language is not known.
+        identifier, grade, maximum, name, email, comments or changeable -> heading, where the language is not known.
     given : mapping, optional
         Submission -> identifier, where a human has decided.
     any_maximum : bool
@@ -77,7 +78,27 @@ def fill_worksheet(
             raise sheet.wrong(row.line, f"it has {len(row)} cells, expected {len(sheet.rows[0])} as in the headings")
     people = _people(sheet, places)
     pairs = pair(results, people, name, given)
+    left = _fill(sheet, places, rows, pairs, comments or {}, any_maximum=any_maximum)
+    notes = [*remarks(pairs, people, name), *left]
+    if places.guessed:
+        shown = ", ".join(f"{which} = {sheet.rows[0][getattr(places, which)]!r}" for which in places.guessed)
+        notes.append(f"Found by what stands in them, for the headings are not known: {shown}.")
+    folders = {person.line: folder_name(person.name, person.ids[1]) for person in people}
+    return Filled(sheet.encode(), tuple(notes), pairs, folders)
+
+
+def _fill(
+    sheet: Sheet,
+    places: Columns,
+    rows: Sequence[Row],
+    pairs: Pairs,
+    comments: Mapping[str, str],
+    *,
+    any_maximum: bool,
+) -> list[str]:
+    """Write marks and comments into the rows that have a result; say which were left as they are."""
     decimal = "."
+    locked, commented = [], []
     for row in rows:
         result = pairs.by_line.get(row.line)
         maximum = row[places.maximum] if places.maximum >= 0 else ""
@@ -85,17 +106,23 @@ def fill_worksheet(
             decimal = decimal_sign(maximum)
         if result is None or result.score is None:
             continue
+        if not may_change(row, places.changeable):
+            locked.append(result.submission)
+            continue
         if not any_maximum:
-            same_maximum([result], maximum, f"{name}, line {row.line}: the assignment")
+            same_maximum([result], maximum, f"{sheet.name}, line {row.line}: the assignment")
         sheet.write(row, places.grade, mark(result.score, decimal))
-        if comments:
-            sheet.write(row, places.comments, _comment(comments[result.submission]))
-    notes = remarks(pairs, people, name)
-    if places.guessed:
-        shown = ", ".join(f"{which} = {sheet.rows[0][getattr(places, which)]!r}" for which in places.guessed)
-        notes.append(f"Found by what stands in them, for the headings are not known: {shown}.")
-    folders = {person.line: folder_name(person.name, person.ids[1]) for person in people}
-    return Filled(sheet.encode(), tuple(notes), pairs, folders)
+        comment = _comment(comments[result.submission]) if comments else ""
+        if comment and row[places.comments].strip() not in {"", "-", comment}:
+            commented.append(result.submission)
+        elif comment:
+            sheet.write(row, places.comments, comment)
+    notes = []
+    if locked:
+        notes.append(f"Cannot be changed in Moodle: {listing(locked)}; the line stays as it was.")
+    if commented:
+        notes.append(f"Have another comment already: {listing(commented)}; it stays. Empty the cell to have it filled.")
+    return notes
 
 
 def folder_name(name: str, number: str) -> str:
