@@ -13,7 +13,8 @@ def test_a_killed_grader_leaves_no_process(place: Path) -> None:
     folder = place / "sleeping"
     folder.mkdir()
     name = "case_87_outlive_the_grader.py"
-    (folder / name).write_bytes((corpus.folder() / name).read_bytes())
+    for copy in (name, f"again_{name}"):  # one submission alone would be graded without a worker
+        (folder / copy).write_bytes((corpus.folder() / name).read_bytes())
     guard = grade(folder, place / "killed", ["--examples", "3", "--time-limit", "10", "--workers", "1"], "kill").guard
     assert guard["code"] == -9, "the grader ended before it could be killed"
     assert guard["processes_left"] == 0
