@@ -205,3 +205,13 @@ def test_a_file_that_unfolds_without_end_is_refused(drawn: Exam, monkeypatch: py
     monkeypatch.setattr(exams, "_LARGEST", 1000)
     with pytest.raises(UsageError, match="cannot read"):
         exam_of(drawn.data, "x.exam")
+
+
+def test_an_exam_that_another_hypothesis_drew_is_taken_as_it_is(uploads: Path, tmp_path: Path) -> None:
+    """A file drawn under the lowest version that is allowed grades under this one; nothing is drawn again."""
+    exam = read_exam(Path(__file__).with_name("drawn_with_hypothesis_6_131.exam"))
+    assert exam.drawn_with["hypothesis"] == "6.131.0"
+    run = grade(collect([uploads]), COURSE, SETTINGS, tmp_path / "out", exam=exam)
+    assert {result.exam for result in run.results} == {exam.digest}
+    assert all(stage.status in {"passed", "missing"} for result in run.results for stage in result.stages)
+    assert kept_exam(tmp_path / "out") == exam
