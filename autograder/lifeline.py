@@ -8,8 +8,6 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-from multiprocessing import parent_process
-from multiprocessing.connection import wait
 
 ENDING = {signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
 
@@ -41,6 +39,9 @@ def live_with_parent() -> None:
 
 
 def _end_with_parent() -> None:
+    from multiprocessing import parent_process  # noqa: PLC0415 - the command line hears signals before it starts anything
+    from multiprocessing.connection import wait  # noqa: PLC0415 - as above
+
     parent = parent_process()
     if parent is not None:
         wait([parent.sentinel])

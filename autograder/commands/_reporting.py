@@ -62,7 +62,6 @@ def _write_answers(out: Path, found: Decided, anonymous: bool) -> None:
     """Write written.html and written.csv; a sheet with points that nobody has read back is left alone."""
     from autograder.marking.anonymous import anonymous_names, read_key
     from autograder.marking.sheet import FILE, LAST, sheet_text, unread
-    from autograder.reports.written import written_page
     from autograder.writing import write_whole
 
     key = {submission: name for name, submission in read_key(out).items()}
@@ -72,6 +71,8 @@ def _write_answers(out: Path, found: Decided, anonymous: bool) -> None:
     answers = found.answers(names)
     if not answers and not (out / FILE).exists():
         return
+    from autograder.reports.written import written_page
+
     title, guide = found.course.title, found.course.guide
     write_whole(out / "written.html", written_page(answers, title, guide, anonymous).encode())
     if unread(out / FILE, answers, key):

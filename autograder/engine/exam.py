@@ -7,7 +7,6 @@ a class sits is not a seed but a file: the cases, who they are for, and a checks
 from __future__ import annotations
 
 import hashlib
-import importlib.metadata
 import platform
 import zlib
 from dataclasses import dataclass
@@ -102,6 +101,8 @@ def draw_exam(seed: int, examples: int) -> Exam:
     examples : int
         Cases to draw a stage, beside the fixed core.
     """
+    from importlib.metadata import version  # noqa: PLC0415 - only who draws needs it
+
     from autograder.engine.laid_out import laid_out  # noqa: PLC0415 - which reads exams itself
 
     corpus = draw_corpus(tuple(all_stages()), seed, examples)
@@ -112,7 +113,7 @@ def draw_exam(seed: int, examples: int) -> Exam:
         seed=seed,
         examples=examples,
         drawn_with={
-            "hypothesis": importlib.metadata.version("hypothesis"),
+            "hypothesis": version("hypothesis"),
             "numpy": np.__version__,
             "python": platform.python_version(),
         },
