@@ -66,6 +66,24 @@ class Adjustment(msgspec.Struct, frozen=True, kw_only=True):
     said: str
 
 
+class Reported(msgspec.Struct, frozen=True, kw_only=True):
+    """What a student reported for the variant on record, beside what is right: for staff.
+
+    `graph` is the variant as plain data. `iterates` is empty where there is no table of numbers, and `said` why;
+    a number that is not finite is None. `choice` is what `conclusion`, the letter, stands for in this variant, and
+    `letters` those of all choices in it.
+    """
+
+    graph: dict[str, Any] = {}
+    right: list[list[float]] = []
+    iterates: list[list[float | None]] = []
+    said: str = ""
+    conclusion: str = ""
+    choice: str = ""
+    right_letter: str = ""
+    letters: dict[str, str] = {}
+
+
 class Result(msgspec.Struct, frozen=True, kw_only=True):
     """One submission, as written to results/<submission>.json.
 
@@ -77,9 +95,9 @@ class Result(msgspec.Struct, frozen=True, kw_only=True):
     an upload of which nothing was run has none. `exam` is the digest of the exam file. `flags` are for
     staff only, such as numbers that belong to somebody else. `in_vain` says of functions that somebody tried to write
     why they are not there; it stands first on the student's page. `written` are the answers in words by
-    question, and `images` the pictures in them, by name, as data URIs. `submitted` and `late` are
-    what the system of the course says of the time. What people decide later, the `comments` on
-    written answers by question and the `adjustments`, is merged into reports and never stored here.
+    question, and `images` the pictures in them, by name, as data URIs; `reported` are the other answers.
+    `submitted` and `late` are what the system of the course says of the time. What people decide later, the
+    `comments` on written answers by question and the `adjustments`, is merged into reports and never stored here.
     """
 
     submission: str
@@ -100,6 +118,7 @@ class Result(msgspec.Struct, frozen=True, kw_only=True):
     in_vain: tuple[str, ...] = ()
     written: dict[str, str] = {}
     images: dict[str, str] = {}
+    reported: Reported | None = None
     comments: dict[str, str] = {}
     adjustments: tuple[Adjustment, ...] = ()
     submitted: str = ""

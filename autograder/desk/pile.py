@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +12,8 @@ from autograder.errors import UsageError
 from autograder.marking.answers import Answer
 from autograder.marking.marks import LONGEST_COMMENT, Mark, digest, read_marks, write_marks
 from autograder.marking.tables import number
+
+_MOST_USED = 9  # comments to choose from, a digit each
 
 
 class Pile:
@@ -21,12 +24,13 @@ class Pile:
     out : Path
         The folder of the run.
     answers : sequence of Answer
-        In the order of reading.
+        In the order of reading; those to one question that say the same are put together.
     """
 
     def __init__(self, out: Path, answers: Sequence[Answer]) -> None:
         self.out = out
-        self._answers = list(answers)
+        first = {_said(answer): place for place, answer in reversed(list(enumerate(answers)))}
+        self._answers = sorted(answers, key=lambda one: (one.question, first[_said(one)]))
         self._lock = threading.Lock()
 
     def __len__(self) -> int:
@@ -46,29 +50,49 @@ class Pile:
         order = [*range(index + 1, len(self)), *range(index)]
         return next((k for k in order if self[k].mark is None), index)
 
-    def give(self, index: int, points: str, comment: str) -> Answer:
+    def alike(self, index: int) -> list[int]:
+        """Return all answers to the same question with the same words and pictures, this one among them."""
+        said = _said(self._answers[index])
+        return [k for k, one in enumerate(self._answers) if _said(one) == said]
+
+    def used(self, question: str, most: int = _MOST_USED) -> list[str]:
+        """Return the comments that were given for a question, the most frequent first."""
+        given = [one.mark.comment for one in self._answers if one.question == question and one.mark is not None]
+        return [comment for comment, _ in Counter(filter(None, given)).most_common(most)]
+
+    def give(self, index: int, points: str, comment: str, *, together: bool = False) -> None:
         """Mark an answer, or with empty points take its mark back; stored when this returns.
+
+        With `together` all answers that say the same are marked alike.
 
         Raises
         ------
         UsageError
             Where the points are none, or beyond the question's.
         """
-        answer = self._answers[index]
+        most = self._answers[index].most
         comment = comment.replace("\r\n", "\n").strip()[:LONGEST_COMMENT]
-        mark = None
+        value = None
         if points.strip():
             value = number(points)
-            if value is None or not 0 <= value <= answer.most:
-                raise UsageError(f"{points.strip()[:20]} is no number from 0 to {answer.most:g}; nothing was stored.")
-            mark = Mark(answer.submission, answer.question, value, answer.most, comment, digest(answer.text))
+            if value is None or not 0 <= value <= most:
+                raise UsageError(f"{points.strip()[:20]} is no number from 0 to {most:g}; nothing was stored.")
         elif comment:
             raise UsageError("A comment needs points, 0 if need be; nothing was stored.")
         with self._lock:
             marks = read_marks(self.out)  # again each time: another reader may have written meanwhile
-            marks.pop((answer.submission, answer.question), None)
-            if mark is not None:
-                marks[mark.key] = mark
+            for place in self.alike(index) if together else [index]:
+                answer = self._answers[place]
+                marks.pop((answer.submission, answer.question), None)
+                mark = None
+                if value is not None:
+                    mark = Mark(answer.submission, answer.question, value, most, comment, digest(answer.text))
+                    marks[mark.key] = mark
+                self._answers[place] = replace(answer, mark=mark, stale=False)
             write_marks(self.out, marks.values())
-            self._answers[index] = replace(answer, mark=mark, stale=False)
-        return self._answers[index]
+
+
+def _said(answer: Answer) -> tuple[str, str, tuple[str, ...]]:
+    """Return what makes two answers the same: the question, the words, the pictures that they show."""
+    shown = sorted(data for name, data in answer.images.items() if name in answer.text)
+    return answer.question, digest(answer.text), tuple(shown)

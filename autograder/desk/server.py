@@ -95,7 +95,7 @@ class _Handler(BaseHTTPRequestHandler):
         points, comment = (fields.get(name, [""])[0] for name in ("points", "comment"))
         pile = self.server.pile
         try:
-            pile.give(index, points, comment)
+            pile.give(index, points, comment, together=fields.get("together", [""])[0] == "on")
             said: dict[str, object] = {"stored": True, "waiting": pile.waiting, "next": pile.next_waiting(index) + 1}
             status = HTTPStatus.OK
         except AutograderError as error:

@@ -7,7 +7,7 @@ from typing import Any
 import msgspec
 
 from autograder.sandbox.frames import Source
-from autograder.verdicts import StageVerdict
+from autograder.verdicts import Reported, StageVerdict
 
 
 class Orders(msgspec.Struct, frozen=True):
@@ -61,6 +61,7 @@ class Graded(msgspec.Struct, frozen=True, tag=True):
     confinement: str = ""
     flags: tuple[str, ...] = ()
     in_vain: tuple[str, ...] = ()
+    reported: Reported | None = None
 
 
 class Trouble(msgspec.Struct, frozen=True, tag=True):

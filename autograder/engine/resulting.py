@@ -66,6 +66,7 @@ class Results:
             flags=self._flags(submission, answer),
             in_vain=answer.in_vain,
             written=answer.written,
+            reported=answer.reported,
             images={
                 name: data
                 for name, data in submission.pictures.items()

@@ -25,6 +25,7 @@ from autograder.engine.judge import Judge
 from autograder.engine.laid_out import plan_of_exam
 from autograder.engine.messages import Answer, Grade, Graded, Message, Orders, Ready, Trouble
 from autograder.engine.plan import Plan
+from autograder.engine.reported import reported
 from autograder.errors import AutograderError, SandboxLost
 from autograder.lifeline import live_with_parent
 from autograder.problems.variants import published
@@ -123,6 +124,7 @@ class Examiner:
             stages = attempt("describing", self.describer.describe, collected, marks, attempt) or marks
             stages = attempt("explaining", explain, session, self.plan, stages, collected.replies, attempt) or stages
             stages = attempt("reading the submission for advice", advised, stages, job.source.cells) or stages
+            beside = attempt("keeping what was reported", reported, sheet, given)
             stages = attempt("taking the words", only_words, marks, stages) or marks
         texts = _texts(given, job.markdown_answers)
         if written.NAME in self.plan.points:
@@ -137,6 +139,7 @@ class Examiner:
             confinement=self.sandbox.confinement.level,
             flags=attempt.flags,
             in_vain=self._in_vain(collected, marks),
+            reported=beside,
         )
 
     def _in_vain(self, collected: Collected, marks: Sequence[StageVerdict]) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from autograder.course import Course
 from autograder.marking.marks import Mark, Marks
 from autograder.marking.merging import WRITTEN, is_current, question_maxima
-from autograder.verdicts import Result
+from autograder.verdicts import Reported, Result
 
 
 @dataclass(frozen=True)
@@ -31,6 +31,10 @@ class Answer:
         What a reader gave for these very words.
     stale : bool
         Whether it was marked, and has changed since.
+    variant : str
+        The variant on record.
+    reported : Reported or None
+        The student's other answers, beside what is right.
     """
 
     submission: str
@@ -41,6 +45,8 @@ class Answer:
     most: float
     mark: Mark | None = None
     stale: bool = False
+    variant: str = ""
+    reported: Reported | None = None
 
 
 def answers(
@@ -68,6 +74,8 @@ def answers(
                         most,
                         mark if current else None,
                         mark is not None and not current,
+                        result.variant,
+                        result.reported,
                     )
                 )
     return sorted(found, key=lambda one: (one.question, one.name))

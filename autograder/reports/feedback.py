@@ -101,14 +101,15 @@ def drawn(counterexample: Mapping[str, Any]) -> Drawn:
     """Lay out one counterexample: figure, call, tables, patterns."""
     found = parts(counterexample)
     return Drawn(
-        graph=_graph(counterexample.get("graph")),
+        graph=graph_picture(counterexample.get("graph")),
         call=call_text(counterexample),
         tables=tuple(_table(part) for part in found),
         spies=tuple(_spies(found)),
     )
 
 
-def _graph(graph: Any) -> Markup | None:
+def graph_picture(graph: Any) -> Markup | None:
+    """Draw a graph, with its factors in words; None where there is none."""
     if not isinstance(graph, Mapping):
         return None
     if graph["n_poses"] > LARGEST or len(graph["edges"]) > 2 * LARGEST:

@@ -18,7 +18,7 @@ from autograder.desk.server import Desk
 from autograder.errors import UsageError
 from autograder.marking.answers import answers
 from autograder.marking.marks import read_marks
-from tests.marking.written import written_class
+from tests.marking.written import answered, written_class
 
 FORM = {"Content-Type": "application/x-www-form-urlencoded", "Accept": "application/json"}
 
@@ -176,3 +176,31 @@ def test_a_pile_keeps_marks_of_others(tmp_path: Path) -> None:
     assert len(read_marks(tmp_path)) == 2
     with pytest.raises(UsageError):
         one.give(0, "9", "")
+
+
+def test_answers_are_the_same_where_words_and_pictures_are(tmp_path: Path) -> None:
+    """Blanks do not count, pictures do; the same words to another question are another answer."""
+    one = answered("ann", {"2": "see ![](attachment:a.png)", "3": "zero"}, images={"attachment:a.png": "data:1"})
+    two = answered("bob", {"2": "see  ![](attachment:a.png)", "3": "see ![](attachment:a.png)"}, images={})
+    three = answered("cy", {"2": "see ![](attachment:a.png)"}, images={"attachment:a.png": "data:1"})
+    pile = Pile(tmp_path, answers([one, two, three], {}, Course()))
+    assert [(pile[k].name, pile[k].question) for k in range(3)] == [("ann", "2"), ("cy", "2"), ("bob", "2")]
+    assert [pile.alike(k) for k in range(5)] == [[0, 1], [0, 1], [2], [3], [4]]
+
+
+def test_answers_are_marked_together_only_where_it_is_asked(desk: Desk, tmp_path: Path) -> None:
+    """All that say the same, at once on disk; the comments are there to be used again."""
+    desk.pile = Pile(tmp_path, answers([answered(name) for name in ("ann", "bob", "cy")], {}, Course()))
+    post(desk, 1, "2", "good")
+    assert set(read_marks(tmp_path)) == {("ann", "2")}
+    headers = {"Origin": f"http://127.0.0.1:{desk.server_port}", **FORM}
+    body = urlencode({"points": "1", "comment": "well", "together": "on"})
+    status, text, _ = ask(desk, f"/{desk.token}/2", "POST", body, **headers)
+    assert (status, json.loads(text)["waiting"]) == (200, 3)
+    assert {(mark.submission, mark.points) for mark in read_marks(tmp_path).values()} == {
+        ("ann", 1.0),
+        ("bob", 1.0),
+        ("cy", 1.0),
+    }
+    assert desk.pile.used("2") == ["well"]
+    assert desk.pile.used("3") == []
