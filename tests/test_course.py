@@ -140,6 +140,10 @@ def test_every_setting_is_read(tmp_path: Path) -> None:
         ("[grading]\nstages = [\n'residual',\n'residual']\n", "line 2: [grading] stages is ['residual', 'residual']"),
         ("[grading]\nstages = []\n", "line 2: [grading] stages is [], expected a list of different stages out of"),
         ("[grading]\nseed = 1.5\n", "line 2: [grading] seed is 1.5, expected a whole number"),
+        (
+            "[grading]\n\nbonus_cap = 90\n",
+            "line 3: [grading] bonus_cap is 90, below the 100 points that there are without bonus",
+        ),
         ("[grading]\nexamples = 0\n", "line 2: [grading] examples is 0, expected"),
         ("[limits]\ntime = 0\n", "line 2: [limits] time is 0, expected seconds, more than 0"),
         ('[feedback]\npolicy = "all"\n', 'line 2: [feedback] policy is "all", expected "full", "hint" or "score".'),

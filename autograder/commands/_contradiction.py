@@ -40,8 +40,8 @@ def check_variants(submissions: Sequence[Submission], ledger: Ledger | None, *, 
     if not strange:
         return ""
     told = (
-        f"{len(strange)} of {len(carrying)} uploads with numbers of their own carry a variant that is "
-        f"{'in no line of this ledger' if ledger is not None else 'not known without a ledger'} "
+        f"{len(strange)} of {len(carrying)} uploads with numbers of their own carry a variant that "
+        f"{'nobody of this class was given' if ledger is not None else 'is not known without a ledger'} "
         f"(the first is {strange[0].id}, {strange[0].variant})"
     )
     if anyway or 2 * len(strange) < len(carrying):

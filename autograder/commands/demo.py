@@ -53,8 +53,8 @@ def command(out: Path, workers: int | None, allow_unconfined: bool) -> int:
     autograder demo
     autograder demo -o somewhere
     """
+    from autograder.commands._grading import grade_and_report
     from autograder.commands._reporting import exit_code
-    from autograder.commands.grade import grade_and_report
     from autograder.course import load_course
     from autograder.intake.submission import collect
     from autograder.reports.terminal import console, print_class
@@ -92,7 +92,7 @@ def _program() -> str:
     """Return what starts this program when it is typed here: its name where a shell finds it, else its path."""
     script = Path(sys.executable).parent / "autograder"
     if not script.exists():
-        return f"{shlex.quote(sys.executable)} -m autograder"
+        return f"{shlex.quote(sys.executable)} -I -m autograder"
     found = shutil.which("autograder")
     if found is not None and Path(found).absolute() == script.absolute():
         return "autograder"

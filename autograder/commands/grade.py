@@ -4,21 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from autograder.commands._people import owner_option, people_options
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from autograder.course import Course
-    from autograder.engine.grade import Run
-    from autograder.engine.run import Assigned
     from autograder.intake.submission import Submission
-    from autograder.sandbox.server import Server
-    from autograder.verdicts import Result
 
 LEVELS = ("full", "seccomp", "none")
 POLICIES = ("full", "hint", "score")
@@ -148,11 +141,12 @@ def command(
     server = click.get_current_context().with_resource(early_server(paths, out, options["scheduler"]))
     from autograder.commands._class import secret_of
     from autograder.commands._contradiction import check_variants
+    from autograder.commands._grading import grade_and_report, print_results
     from autograder.commands._people import decide, people_of, report_missing
     from autograder.commands._reporting import exit_code, say
     from autograder.course import load_course
     from autograder.intake.submission import collect
-    from autograder.marking.members import update_members
+    from autograder.marking.members import enter_members, members_after
     from autograder.marking.owners import store_owners
     from autograder.writing import make_folder
 
@@ -168,14 +162,20 @@ def command(
     assigned, owners = decide(everything, people, given, out)
     if secret is not None and term is not None and course.seed is None and options["seed"] is None:
         options["seed"] = secret.seed(term)
-    make_folder(out)
-    store_owners(out, owners)
     class_ids = () if people is None or roster is None else [one.student_id for one in people.students]
-    change = update_members(out, paths, [one.id for one in everything], class_ids, some=bool(only))
-    for note in change.notes:
-        say(note)
+    change = members_after(out, paths, [one.id for one in everything], class_ids, some=bool(only))
+
+    def enter() -> None:
+        make_folder(out)
+        store_owners(out, owners)
+        enter_members(out, change)
+        for note in change.notes:
+            say(note)
+
     merge = bool(only) or bool(change.staying)
-    run = grade_and_report(submissions, course, out, merge=merge, assigned=assigned, server=server, **options)
+    run = grade_and_report(
+        submissions, course, out, merge=merge, assigned=assigned, server=server, enter=enter, **options
+    )
     print_results(run.results, out, as_json)
     if people is not None and assigned is not None:
         report_missing(people, assigned, out, {one.student_id for one in run.results if one.student_id})
@@ -196,90 +196,3 @@ def _chosen(submissions: list[Submission], only: Sequence[str]) -> list[Submissi
             guess = f"did you mean {near[0]}?" if near else f"the first of them is {min(known)}."
             raise UsageError(f"--only {name}: none of the {len(known)} submissions has this name; {guess}")
     return [submission for submission in submissions if submission.id in only]
-
-
-def grade_and_report(
-    submissions: Sequence[Submission],
-    course: Course,
-    out: Path,
-    *,
-    workers: int | None = None,
-    seed: int | None = None,
-    examples: int | None = None,
-    fresh: bool = False,
-    time_limit: float | None = None,
-    memory: int | None = None,
-    output_limit: int | None = None,
-    feedback: str | None = None,
-    exam_file: Path | None = None,
-    min_confinement: str | None = None,
-    allow_unconfined: bool = False,
-    scheduler: str | None = None,
-    merge: bool = False,
-    assigned: Mapping[str, Assigned] | None = None,
-    server: Server | None = None,
-) -> Run:
-    """Grade with the course's settings but for those given, and write the reports into `out`.
-
-    The reports hold everybody who belongs to the folder. `merge` says that some of them are not among
-    `submissions` and keep their results; `assigned` says whose each submission is.
-    """
-    from dataclasses import replace
-
-    import msgspec
-
-    from autograder.commands._exam import exam_for
-    from autograder.commands._progress import progress
-    from autograder.commands._reporting import say, show_changes, write_all
-    from autograder.commands.report import stored_results
-    from autograder.engine.grade import Settings, grade
-    from autograder.marking.folder import stored_course
-    from autograder.marking.marks import read_marks
-    from autograder.marking.overrides import read_overrides
-
-    # What is wrong with these files is better known before an hour of grading than after it.
-    read_marks(out)
-    read_overrides(out)
-    if feedback is not None:
-        course = replace(course, feedback=cast("Any", feedback), before_due=None)
-    course = replace(course, memory_mib=memory or course.memory_mib, output_mib=output_limit or course.output_mib)
-    last = stored_course(out)
-    if last is not None and last != course:
-        say(
-            f"{out} was written with other settings of the course; those of this command hold now, for everybody in it."
-        )
-    seed = course.seed if seed is None else seed
-    exam = exam_for(out, exam_file, seed, examples, merge=merge)
-    given: dict[str, Any] = {
-        "seed": (seed or 0) if exam is None else exam.seed,
-        "examples": (examples or course.examples) if exam is None else exam.examples,
-        "time_limit": time_limit or course.time_limit,
-        "feedback": feedback or course.feedback,
-        "min_confinement": min_confinement or course.min_confinement,
-    }
-    settings = Settings(workers=workers, fresh=fresh, allow_unconfined=allow_unconfined, scheduler=scheduler, **given)
-    with progress() as report:
-        run = grade(submissions, course, settings, out, report, assigned, exam, server)
-    results = stored_results(out) if run.results else ()
-    record = msgspec.to_builtins(run.record)
-    whole = not run.interrupted
-    found, moved = write_all(out, results, record, course, feedback=feedback, strict=False, complete=whole)
-    show_changes(moved, quiet=True)
-    return replace(run, results=found.results)
-
-
-def print_results(results: Sequence[Result], out: Path, as_json: bool) -> None:
-    """Print results to stdout, and to stderr where the files are."""
-    if as_json:
-        import msgspec
-
-        for result in results:
-            click.echo(msgspec.json.encode(result))
-        return
-    from autograder.reports.terminal import console, print_class
-
-    print_class(results, console())
-    names = [
-        name for name in ("grades.csv", "report.html", "written.html", "feedback", "results") if (out / name).exists()
-    ]
-    click.echo(f"\nWrote {', '.join(str(out / name) for name in names)}.", err=True)

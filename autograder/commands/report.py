@@ -72,8 +72,8 @@ def command(
     autograder report graded --forget ada
     autograder report graded --format md > post.md
     """
+    from autograder.commands._grading import print_results
     from autograder.commands._reporting import show_changes, write_all
-    from autograder.commands.grade import print_results
     from autograder.marking import members
 
     if forget:

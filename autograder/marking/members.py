@@ -29,8 +29,22 @@ class Members(msgspec.Struct, frozen=True, kw_only=True):
 
 @dataclass(frozen=True)
 class Change:
-    """What a run changed about who belongs to a folder; `staying` are members that are not among its uploads."""
+    """What a run changes about who belongs to a folder, before it is written down.
 
+    Parameters
+    ----------
+    record : Members
+        The new record.
+    gone : tuple of str
+        Who is kept aside from now on.
+    staying : tuple of str
+        Members that are not among the uploads of the run.
+    notes : tuple of str
+        The change in words.
+    """
+
+    record: Members
+    gone: tuple[str, ...]
     staying: tuple[str, ...]
     notes: tuple[str, ...]
 
@@ -55,10 +69,10 @@ def read_members(out: Path) -> Members:
         ) from None
 
 
-def update_members(
+def members_after(
     out: Path, paths: Sequence[Path], names: Iterable[str], roster: Iterable[str] = (), *, some: bool = False
 ) -> Change:
-    """Enter the uploads of a run.
+    """Find out who belongs to a folder after the uploads of a run; nothing is written.
 
     Who was read from what is given now, and is not found there any more, is kept aside: in no report and no export,
     with its result still on disk. Who came from elsewhere stays.
@@ -88,9 +102,7 @@ def update_members(
     moved = [name for name in moved if not _covered(given, old.sources[name])]
     sources = {name: old.sources[name] for name in old.sources if name not in here} | dict.fromkeys(here, given)
     aside = tuple(sorted((set(old.aside) - here) | set(gone)))
-    _write(out, Members(sources=sources, aside=aside, roster=tuple(roster) or old.roster))
-    for name in gone:
-        _remove(out / "feedback" / f"{name}.html")
+    record = Members(sources=sources, aside=aside, roster=tuple(roster) or old.roster)
     notes = []
     if gone:
         notes.append(
@@ -107,7 +119,14 @@ def update_members(
             f"{'stays' if len(staying) == 1 else 'stay'} ({_some(staying)}); "
             f"`autograder report {out} --forget NAME` drops one."
         )
-    return Change(staying, tuple(notes))
+    return Change(record, tuple(gone), staying, tuple(notes))
+
+
+def enter_members(out: Path, change: Change) -> None:
+    """Write a change down; students see no page of an upload that is gone."""
+    _write(out, change.record)
+    for name in change.gone:
+        _remove(out / "feedback" / f"{name}.html")
 
 
 def forget(out: Path, names: Sequence[str]) -> None:

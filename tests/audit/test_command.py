@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -11,7 +12,7 @@ from click.testing import CliRunner
 from autograder.audit import Audit
 from autograder.audit.expectation import Cell
 from autograder.audit.report import Row
-from autograder.cli import cli
+from autograder.cli import cli, main
 
 
 def run(monkeypatch: pytest.MonkeyPatch, found: Audit, *arguments: str) -> tuple[int, str]:
@@ -41,3 +42,15 @@ def test_a_wrong_cell_ends_with_1(found: Audit, monkeypatch: pytest.MonkeyPatch)
     ]
     code, output = run(monkeypatch, replace(found, rows=(row,)), "--json")
     assert (code, json.loads(output)["faults"]["false alarm"]) == (1, 1)
+
+
+def test_a_family_that_does_not_exist_is_said(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The release would refuse it weeks later; no hour of auditing goes before the sentence."""
+    monkeypatch.setattr("autograder.audit.audit", lambda *_, **__: pytest.fail("it was audited"))
+    (tmp_path / "course.toml").write_text('[variants]\nfamilies = ["A", "Q"]\n')
+    with pytest.raises(SystemExit) as end:
+        main(["audit", "--course", str(tmp_path / "course.toml")])
+    assert end.value.code == 2
+    assert "There is no family 'Q'" in capsys.readouterr().err

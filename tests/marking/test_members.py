@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -17,10 +17,19 @@ from autograder.engine.store import Store
 from autograder.errors import UsageError
 from autograder.marking.folder import decided
 from autograder.marking.marks import Mark, digest, read_marks, write_marks
-from autograder.marking.members import forget, read_members, update_members
+from autograder.marking.members import Change, enter_members, forget, members_after, read_members
 from autograder.marking.sheet import FILE, read_sheet
 from tests.marking.written import TEXTS, answered
 from tests.reports.examples import result
+
+
+def update_members(
+    out: Path, paths: Sequence[Path], names: Sequence[str], roster: Sequence[str] = (), *, some: bool = False
+) -> Change:
+    """Enter uploads, as a run does that nothing refuses."""
+    change = members_after(out, paths, names, roster, some=some)
+    enter_members(out, change)
+    return change
 
 
 @pytest.fixture
