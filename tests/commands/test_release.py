@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -17,7 +18,7 @@ from autograder.problems.hand_solution import hand_solution
 from autograder.problems.roster import read_roster
 from autograder.problems.secret import Secret
 from autograder.render.handout import render_folder
-from tests.commands.released import CLASS, SECRET, TERM, files_of_the_course, ledger_of, options
+from tests.commands.released import CLASS, SECRET, TERM, files_of_the_course, ledger_of, module, options
 
 Ended = tuple[int, str, str]
 Run = Callable[..., Ended]
@@ -155,6 +156,55 @@ def test_another_secret_or_term_is_refused(release: Callable[..., Ended], tmp_pa
     assert release()[0] == 2
     assert snapshot(tmp_path / "release") == before
     assert release("--force")[0] == 0
+
+
+@pytest.mark.slow
+def test_a_second_release_after_mistakes_loses_nothing(release: Callable[..., Ended], run: Run, tmp_path: Path) -> None:
+    """Another secret, term, mix or roster, a lost folder: what was handed out stays, and the class is graded on it."""
+    assert release()[0] == 0
+    first = snapshot(tmp_path / "release")
+    course = tmp_path / "course.toml"
+    course.write_text('[variants]\nfamilies = ["B"]\n')
+    for mistake, words in (
+        (("--course", course), "mix of families (A)"),
+        (("--family", "A", "--family", "W"), "mix of families (A)"),
+        (("--term", "2027S"), "secret or term"),
+    ):
+        code, _, err = release(*mistake)
+        assert code == 2
+        assert f"was made with another {words}; choose another folder" in err
+    assert snapshot(tmp_path / "release") == first
+    assert json.loads((tmp_path / "release/staff/release.json").read_text())["mix"] == {"A": 1}
+    shutil.rmtree(tmp_path / "release/students/s2")
+    (tmp_path / "class.csv").write_text(CLASS.replace("s1,Ann Lee,ann@x.org,1\n", "") + "s4,Di Oak,di@x.org,2\n")
+    code, out, err = release("--family", "B", "--force")
+    assert code == 0, err
+    assert "s1" in out + err  # who is gone from the roster is named
+    after = snapshot(tmp_path / "release")
+    lost = {name for name in first if name not in after}
+    assert not lost
+    ours = {name for name, (data, _) in first.items() if after[name][0] != data}
+    assert {name.removeprefix("staff/") for name in ours} == {
+        "variants.csv",
+        "keys.csv",
+        "release.json",
+        "mistakes.txt",
+    }
+    lines = {name: after[f"staff/{name}"][0].splitlines() for name in ("variants.csv", "keys.csv")}
+    assert all(line in lines[name] for name in lines for line in first[f"staff/{name}"][0].splitlines())
+    assert {one.student_id: one.family for one in ledger_of(tmp_path / "release")} == {
+        "s1": "A", "s2": "A", "s3": "A", "s4": "B",
+    }  # fmt: skip
+    uploads = tmp_path / "uploads"
+    uploads.mkdir()
+    for one in ledger_of(tmp_path / "release"):
+        (uploads / f"{one.student_id}.py").write_text(module(one))
+    ledger = ("--ledger", tmp_path / "release/staff/variants.csv")
+    assert run("grade", uploads, "-o", tmp_path / "out", *ledger, "--examples", 3, "--workers", 1)[0] == 0
+    for path in (tmp_path / "out/results").iterdir():
+        graded = json.loads(path.read_bytes())
+        answers = next(stage for stage in graded["stages"] if stage["name"] == "answers")
+        assert (answers["score"], graded["flags"]) == (5.0, [])
 
 
 def test_families_come_from_the_command_line_or_the_course(release: Callable[..., Ended], tmp_path: Path) -> None:
