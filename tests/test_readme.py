@@ -32,6 +32,25 @@ def test_the_two_commands_stand_on_the_first_screen() -> None:
     assert sum(line.startswith(("make demo", "make test")) for line in first) == 2
 
 
+def test_three_people_are_answered_on_the_first_screen() -> None:
+    """Student, grader and instructor have three lines each, before line 45, and a command that is shown exists."""
+    lines = README.splitlines()[:45]
+    for person in ("Student", "Grader", "Instructor"):
+        at = lines.index(f"**{person}?**")
+        assert all(lines[at + 1 : at + 4])
+        assert lines[at + 4] == ""
+        assert "[More](#for-" in lines[at + 3]
+        for name in re.findall(r"`autograder (\w+)", "\n".join(lines[at : at + 4])):
+            assert cli.get_command(click.Context(cli), name) is not None
+
+
+def test_what_is_said_of_follow_through_is_the_default() -> None:
+    """All of the points by default, and no mistake spoils the next one, as long as that is the course's default."""
+    assert Course().follow_through == 1.0
+    assert "earns the follow-through share, all of the points by default" in README
+    assert "a mistake in one function does not spoil the next" in README
+
+
 @pytest.mark.parametrize("line", COMMANDS)
 def test_a_command_that_is_shown_exists(line: str) -> None:
     """Its name and every option of it are known."""
