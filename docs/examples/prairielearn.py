@@ -36,7 +36,7 @@ def main(root: Path) -> None:
     target = root / "results" / "results.json"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(json.dumps({"gradable": False, "message": FAULT}), encoding="utf-8")
-    command = [sys.executable, "-m", "autograder", "grade", root / "student", "-o", root / "graded", "--json"]
+    command = [sys.executable, "-I", "-m", "autograder", "grade", root / "student", "-o", root / "graded", "--json"]
     done = subprocess.run(command, stdout=subprocess.PIPE, check=False, timeout=600)
     results = [json.loads(line) for line in done.stdout.splitlines()]
     if len(results) == 1:
