@@ -53,9 +53,10 @@ def command(
     """Give every student of a class a problem with numbers of their own.
 
     Writes DIR/students/ID/ and DIR/zips/ID.zip to hand out, and DIR/staff/ to keep: variants.csv, which
-    grading reads, keys.csv, the exam that all graders share, and the worked solution of every student. Nothing
-    of staff/ is in a student's folder. The same roster, term and secret give the same numbers; running it again
-    changes nothing. With --course, handout and notebook tell the course's title, points, share and due date.
+    grading reads, keys.csv, mail.csv for mail merge, the exam that all graders share, and the worked solution of
+    every student. Nothing of staff/ is in a student's folder. The same roster, term and secret give the same
+    numbers; running it again changes nothing. With --course, handout and notebook tell the course's title, points,
+    share and due date.
 
     \b
     python3 -c 'import secrets; print(secrets.token_hex(32))' > secret.txt
@@ -67,11 +68,13 @@ def command(
     from autograder.commands._progress import shown
     from autograder.course import load_course
     from autograder.engine.local import default_workers
+    from autograder.exports.handout import mail_table
     from autograder.problems.release import EXAM, LEDGER, release
     from autograder.problems.roster import read_roster
     from autograder.render.handout import render_folder
 
     course = load_course(course_file)
+    grading = grading_of(course)
     mix = mix_of(families, course)
     students = read_roster(roster)
     secret = secret_of(term, secret_file)
@@ -84,10 +87,10 @@ def command(
             term,
             mix,
             out,
-            render=partial(render_folder, grading=grading_of(course)),
+            render=partial(render_folder, grading=grading),
             render_key=worked_solution,
             accept=demand.accept,
-            notes={"mistakes.txt": demand.text()},
+            notes={"mistakes.txt": demand.text(), "mail.csv": mail_table(students, grading.title, grading.due)},
             force=force,
             workers=workers or default_workers(),
             on_draw=shown(stack, "drawing", "drew"),
@@ -98,7 +101,9 @@ def command(
     note = shared_exam(exam, seed, course.examples, force=force)
     click.echo("\n".join(filter(None, [done.text(), note])))
     click.echo(
-        f"\nTo hand out: {out / 'zips'}, or {out / 'students'}. For staff: {out / 'staff'}; keep variants.csv safe.\n"
+        f"\nTo hand out: {out / 'zips'}, or {out / 'students'}. To mail: {out / 'staff' / 'mail.csv'}; "
+        "for Moodle and Canvas: `autograder export handout`.\n"
+        f"For staff: {out / 'staff'}; keep variants.csv safe.\n"
         f"When they hand in: {_grading(roster, term, secret_file, families, out / LEDGER, course_file, exam)}"
     )
 

@@ -78,6 +78,7 @@ def test_staff_get_what_they_mark_with(release: Callable[..., Ended], tmp_path: 
         "variants.csv",
         "keys.csv",
         "exam",
+        "mail.csv",
         "release.json",
         "mistakes.txt",
         "solutions",
@@ -142,7 +143,7 @@ def test_running_it_again_changes_nothing(release: Callable[..., Ended], tmp_pat
     assert release()[1].startswith("1 new, 3 unchanged")
     after = snapshot(tmp_path / "release")
     changed = {name for name in after if after[name] != before.get(name)}
-    assert {name for name in changed if "a0" not in name} == {"staff/variants.csv", "staff/keys.csv"}
+    assert {name for name in changed if "a0" not in name} == {"staff/variants.csv", "staff/keys.csv", "staff/mail.csv"}
 
 
 def test_another_secret_or_term_is_refused(release: Callable[..., Ended], tmp_path: Path) -> None:
@@ -189,6 +190,7 @@ def test_a_second_release_after_mistakes_loses_nothing(release: Callable[..., En
         "keys.csv",
         "release.json",
         "mistakes.txt",
+        "mail.csv",
     }
     lines = {name: after[f"staff/{name}"][0].splitlines() for name in ("variants.csv", "keys.csv")}
     assert all(line in lines[name] for name in lines for line in first[f"staff/{name}"][0].splitlines())

@@ -40,6 +40,7 @@ def command() -> None:
     autograder export canvas graded --gradebook grades.csv -o canvas
     autograder export moodle graded --worksheet sheet.csv -o moodle
     autograder export mailmerge graded --roster class.csv -o mail.csv
+    autograder export handout release --roster class.csv --worksheet sheet.csv -o handout
     autograder export gradescope -o autograder.zip
     autograder export nbgrader -o slam-course
     autograder export otter -o slam-otter

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from autograder.errors import UsageError
@@ -48,22 +48,33 @@ def feedback_archive(
     UsageError
         Where no file of the archive belongs to a graded student.
     """
-    newest: dict[str, tuple[int, str, str]] = {}
-    for path in uploads:
-        base = path.rpartition("/")[2]
-        found = _UPLOAD.fullmatch(base)
-        if found is not None and "/" not in path and found["user"] in owners:
-            attachment = (int(found["attachment"]), base, found["file"])
-            newest[found["user"]] = max(newest.get(found["user"], attachment), attachment)
+    newest = newest_uploads(uploads, owners)
     if not newest:
         raise UsageError(
             f"{name} holds no upload of anybody who was graded; expected the submissions.zip of this assignment "
             "as Canvas made it, with names like doejane_101_2001_slam1d.py."
         )
-    files = {upload: content(own, texts[owners[user].submission]) for user, (_, upload, own) in newest.items()}
+    files = {upload: content(upload, texts[owners[user].submission]) for user, upload in newest.items()}
     without = [result.submission for user, result in owners.items() if user not in newest]
     notes = (f"No upload in {name}: {listing(without)}; Canvas could not take a file for them.",) if without else ()
     return Returned(bundle(files), notes)
+
+
+def newest_uploads(uploads: Sequence[str], users: Collection[str]) -> dict[str, str]:
+    """Return for each of these numbers of students the name of the newest upload.
+
+    Examples
+    --------
+    >>> newest_uploads(["doejane_101_7_a.py", "doejane_101_9_b.py", "notes.txt"], ["101"])
+    {'101': 'doejane_101_9_b.py'}
+    """
+    newest: dict[str, tuple[int, str]] = {}
+    for path in uploads:
+        found = _UPLOAD.fullmatch(path)
+        if found is not None and "/" not in path and found["user"] in users:
+            attachment = (int(found["attachment"]), path)
+            newest[found["user"]] = max(newest.get(found["user"], attachment), attachment)
+    return {user: upload for user, (_, upload) in newest.items()}
 
 
 def content(file: str, text: str) -> bytes:

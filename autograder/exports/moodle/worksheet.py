@@ -63,10 +63,7 @@ def fill_worksheet(
     UsageError
         Where the file is no worksheet, a column cannot be told, or a mark could be anybody's.
     """
-    sheet = read_sheet(data, name)
-    if not sheet.rows:
-        raise UsageError(f"{name} is empty; expected the grading worksheet of an assignment.")
-    places = columns(sheet, headings or {})
+    sheet, places = _opened(data, name, headings or {})
     if comments and places.comments < 0:
         raise UsageError(
             f"{name} has no column for comments; switch on 'Feedback comments' in the assignment, name the column "
@@ -85,6 +82,24 @@ def fill_worksheet(
         notes.append(f"Found by what stands in them, for the headings are not known: {shown}.")
     folders = {person.line: folder_name(person.name, person.ids[1]) for person in people}
     return Filled(sheet.encode(), tuple(notes), pairs, folders)
+
+
+def participants(data: bytes, name: str, headings: Mapping[str, str]) -> list[Person]:
+    """List everybody of a worksheet: `ids` are identifier, number, and the address where it has one.
+
+    Raises
+    ------
+    UsageError
+        Where the file is no worksheet, or a column cannot be told.
+    """
+    return _people(*_opened(data, name, headings))
+
+
+def _opened(data: bytes, name: str, headings: Mapping[str, str]) -> tuple[Sheet, Columns]:
+    sheet = read_sheet(data, name)
+    if not sheet.rows:
+        raise UsageError(f"{name} is empty; expected the grading worksheet of an assignment.")
+    return sheet, columns(sheet, headings)
 
 
 def _fill(
