@@ -69,7 +69,7 @@ def _graph(edges: str, priors: str = "0 0 .01") -> Any:
 
 
 WORKED = _graph("0>1 1.1 .01,1>2 1 .01,2>3 1.1 .01,3>4 -2.7 .01,0>4 0 .01", "0 0 .001")
-# The six public graphs, each with a state that is not dead reckoning.
+# The public graphs, each with a state that is not dead reckoning. The last ones go to the ends of what is allowed.
 PUBLIC: dict[str, tuple[list[float], Any]] = {
     "two poses": ([4, 6], _graph("0>1 1.5 .04", "0 3 .001")),
     "interior loop": ([0.5, 1, 3.25, 2, 4], _graph("0>1 1 .01,1>2 2 .02,2>3 -1 .05,3>4 1 .01,1>3 1.5 .02")),
@@ -77,6 +77,10 @@ PUBLIC: dict[str, tuple[list[float], Any]] = {
     "shuffled and doubled edges": ([1, 1.5, 3, 3.5], _graph("2>3 1 .05,0>2 2.4 .04,0>1 1 .01,1>2 1 .02,0>1 1.3 .03")),
     "two priors": ([2, 2.25, 4.5, 3], _graph("0>1 1 .02,1>2 2 .01,2>3 -1 .02,1>3 1.5 .01", "2 4 .05,0 1.5 .02")),
     "unequal variances": ([-1.5, 0.25, 1.125, 1.8765432], _graph("0>1 1 .004,1>2 1 .3,2>3 1 2,0>3 2.2 .05", "0 -1 .6")),
+    "two parts": ([0.2, 1.5, 5.1, 7.5], _graph("0>1 1 .01,2>3 2 .02", "2 5 .04,0 0 .01,2 5.5 .02")),
+    "far away": ([-81.3, 19.7, 93.1], _graph("0>1 149.3 4,1>2 -61.7 9,0>2 90.1 2.5", "0 -60.3 5")),
+    "one sure factor": ([7.3, 8.1, 9.7], _graph("0>1 1.1 .00001,1>2 1.3 2,0>2 2.7 1.5", "0 7 .8")),
+    "nearly there": ([3.00004, 4.50009], _graph("0>1 1.5 .04", "0 3 .001")),
 }
 
 
@@ -90,7 +94,7 @@ class Student:
         self.again = "save it, check again" if file else "run its cell, then run this one again"
 
     def problems(self) -> Iterator[tuple[str, Any, np.ndarray]]:
-        """Yield name, graph and state: the worked example, the six public graphs, your own."""
+        """Yield name, graph and state: the worked example, the public graphs, your own."""
         yield "the worked example", WORKED, WORKED.dead_reckoning()
         for name, (x, graph) in PUBLIC.items():
             yield f"the public graph '{name}'", graph, np.array(x, dtype=float)
@@ -158,6 +162,8 @@ def _no_array(begin: str, value: Any, wanted: str) -> Broken:
 
 def _array(name: str, value: Any, shape: tuple[int, ...], verb: str = "returned") -> np.ndarray:
     try:
+        if isinstance(value, np.ma.MaskedArray):
+            raise Broken(f"{name} {verb} a masked array, expected a plain one: use an np.array of numbers.")
         array = np.asarray(value)
         if array.dtype.kind == "c":
             raise Broken(f"{name} {verb} complex numbers, expected real ones.")
@@ -202,7 +208,7 @@ def factor(graph: Any, row: int) -> str:
     return f"row {row} ({names[row]})"
 
 
-def _same_rows(graph: Any, what: str, got: np.ndarray, expected: np.ndarray, tolerance: float = 1e-9) -> None:
+def _same_rows(graph: Any, what: str, got: np.ndarray, expected: np.ndarray, tolerance: Any = 1e-9) -> None:
     far = np.abs(got - expected) > tolerance * (1 + np.abs(expected))
     wrong = np.flatnonzero(far.reshape(len(got), -1).any(axis=1))
     if wrong.size:
@@ -218,9 +224,9 @@ def published(s: Student, graph: Any, x: np.ndarray) -> None:
 
 
 def moved_together(s: Student, graph: Any, x: np.ndarray) -> None:
-    """When all poses move by 1.75 m, edge rows stay and prior rows grow by 1.75."""
-    expected = s.residual(x, graph) + 1.75 * (np.arange(graph.n_factors) >= len(graph.edges))
-    _same_rows(graph, "f after the move", s.residual(x + 1.75, graph), expected)
+    """When all poses move by 1/3 m, edge rows stay and prior rows grow by 1/3."""
+    expected = s.residual(x, graph) + (np.arange(graph.n_factors) >= len(graph.edges)) / 3
+    _same_rows(graph, "f after the move", s.residual(x + 1 / 3, graph), expected)
 
 
 def fits(s: Student, graph: Any, x: np.ndarray) -> None:
@@ -233,7 +239,7 @@ def one_longer(s: Student, graph: Any, x: np.ndarray) -> None:
     """A longer measurement raises only its own row, a larger mean lowers its own."""
     f, k = s.residual(x, graph), len(graph.edges)
     for row in range(graph.n_factors):
-        bump = 0.375 * (np.arange(graph.n_factors) == row)
+        bump = (np.arange(graph.n_factors) == row) / 3  # has digits without end, so a rounded f shows
         changed = replace(graph, measurements=graph.measurements + bump[:k], prior_means=graph.prior_means + bump[k:])
         _same_rows(graph, "f", s.residual(x, changed), f + bump if row < k else f - bump)
 
@@ -256,7 +262,8 @@ def weights(s: Student, graph: Any, x: np.ndarray) -> None:
     """Every weight times its variance is 1."""
     variances, given = np.append(graph.edge_variances, graph.prior_variances), np.diag(s.omega(graph))
     hint = " (the variances themselves stand on the diagonal)" if np.allclose(given, variances) else ""
-    _same_rows(graph, f"weight x variance{hint}", given * variances, np.ones(len(variances)))
+    allowed = 6e-10 + 6e-13 / variances  # a guard of 1e-12 m^2 against dividing by 0 costs nothing
+    _same_rows(graph, f"weight x variance{hint}", given * variances, np.ones(len(variances)), allowed)
 
 
 def independent(s: Student, graph: Any, x: np.ndarray) -> None:
@@ -270,6 +277,8 @@ SYSTEMS = [
     ([[1, 2], [0, 1], [3, -1]], [3, 7, 11], [1, -2, 5]),
     ([[1.5, -2, 0], [0, 1, 3], [4, 0.5, 1], [1, 1, -1]], [0.2, 30, 13, 7], [1, 0.25, -3, 2]),
     ([[2, 0, 1], [0, -1, 0], [1, 0, 3], [0, 4, 1], [1, 1, 1]], [5, 0.5, 100, 2, 9], [0.1, 2, -1, 0.5, 3]),
+    ([[1, 0], [-1, 1], [0, 1]], [0.02, 0.005, 0.001], [120, -80, 60]),
+    ([[1, 0], [-1, 1], [0, 1]], [9000, 1, 20000], [0.1, -0.2, 0.3]),
 ]
 
 
@@ -355,6 +364,8 @@ def follow(s: Student, graph: Any, x: np.ndarray) -> None:
         raise Unfinished("iterates is still None: fill it with x^(0) to x^(3), one row each.")
     rows = _array("iterates", given, (4, len(x)), "has")
     wanted, why = graph.dead_reckoning(), "it is not dead reckoning; run the cell of my_start again"
+    if (rows == rows[3]).all():
+        why += "; all rows are one state: x += ... changes the array that is in the list, x = x + ... does not"
     for index, row in enumerate(rows):
         if np.abs(row - wanted).max() > 1e-6 * (1 + np.abs(wanted).max()):
             raise Wrong(f"row {index} of iterates, x^({index}), is {vector(row)}: {why}.")
@@ -363,10 +374,10 @@ def follow(s: Student, graph: Any, x: np.ndarray) -> None:
 
 def patterns(s: Student, graph: Any, x: np.ndarray) -> None:
     """The masks are where your own J and H are not 0."""
-    shapes = [(graph.n_factors, graph.n_poses), (graph.n_poses, graph.n_poses)]
+    masks = s.call("sparsity_pattern", [(graph.n_factors, len(x)), (len(x), len(x))], graph)  # first: it may be open
     J = s.jacobian(x, graph)
     H, _ = s.normal(J, s.omega(graph), s.residual(x, graph))
-    for what, got, full in zip(("J_mask", "H_mask"), s.call("sparsity_pattern", shapes, graph), (J, H)):
+    for what, got, full in zip(("J_mask", "H_mask"), masks, (J, H)):
         wrong = np.argwhere((got != 0) != (np.abs(full) > 1e-9 * np.abs(full).max()))
         if len(wrong):
             i, j = wrong[0].tolist()
@@ -403,6 +414,84 @@ STAGES: dict[str, tuple[Callable[[Student, Any, np.ndarray], None], ...]] = {
     "range_factor": (ranges,),
 }
 BONUS = ("sparsity_pattern", "range_factor")
+
+
+# Three of growing detail for each stage, and none of them the line.
+HINTS = {
+    "residual": """
+    * Every factor has one row: the edges first, in the given order, then the priors. What has each of them to
+      say?
+    * For an edge, three numbers meet: where it begins, what it measured, where it ends. Where would the
+      measurement put pose j, and where does the state put it?
+    * graph.edges[:, 0] holds the tails of all edges; x indexed with such an array gives all their places at
+      once. Do the same for the heads, and for graph.priors; np.concatenate joins edges and priors.
+    """,
+    "jacobian": """
+    * Take one factor and one pose: by how much does the row change when this pose moves by 1 m and no other
+      does?
+    * An edge row feels two poses, with opposite signs, a prior row one. Read the signs off the formula of f.
+    * Begin with np.zeros((m, n)). Rows r = 0, 1, ... go with graph.edges; the tail's column and the head's get
+      one number each, whatever x is. The rows of the priors follow those of the edges.
+    """,
+    "information_matrix": """
+    * A weight says how sure a measurement is: what is sure has a small variance and a large weight.
+    * The measurements are independent, so the covariance is diagonal. What is the inverse of a diagonal matrix?
+    * Put the variances of edges and priors into one vector, in the order of the rows of f; turn each into a
+      weight; np.diag makes a matrix of a vector.
+    """,
+    "normal_equations": """
+    * Both are products of what is given. Write the shapes beside the formulas: which factors fit together?
+    * The transpose of J comes first in both, Omega stands between: (n, m) (m, m) (m, n) for H, (n, m) (m, m)
+      (m,) for b.
+    * In numpy @ is the product of matrices, * goes entry by entry, and .T transposes. The sign of b is decided
+      later, where the system is solved. Return both, H first.
+    """,
+    "gauss_newton_step": """
+    * Everything is there: your four functions, called one after the other at this x, and one linear system.
+    * The gradient 2 b + 2 H dx is to be zero. Solve for dx, and mind the sign of the right side.
+    * No inverse is needed: np.linalg has a function that takes a matrix and a right side and solves. Return dx
+      alone, not x + dx, and leave the x that you were given as it is.
+    """,
+    "second_step": """
+    * Nothing more is to be written here: your step is called again from where it led.
+    * Put x + dx back into your step by hand, on my_graph, and print b there. What should the gradient be at a
+      minimum?
+    * Each call must use its own x and graph: nothing stored from an earlier call, no damping, no typed-in
+      numbers, and H and b made of the same J and Omega.
+    """,
+    "iterates": """
+    * Four states, one a row: the start, and what comes after each of three steps.
+    * A loop of three turns: from the last state, take a step, keep the new state. Each turn begins where the
+      last ended.
+    * Collect the states in a list that begins with my_start, and make one array of it in the end; make a new
+      array for every state, because x += ... changes the one that is in the list.
+    """,
+    "sparsity_pattern": """
+    * Which poses does a factor touch? Only the lists graph.edges and graph.priors are needed.
+    * J has an entry where a factor touches a pose; H has one where two poses meet in a factor, and on the
+      diagonal.
+    * Begin with two arrays of False of the right shapes. For every edge mark two places in J and four in H, for
+      every prior one in each.
+    """,
+    "range_factor": """
+    * The pose x_k stands at (x_k, 0), the beacon beside the line: draw the triangle.
+    * The distance is the longest side, by Pythagoras. As in an edge, the prediction comes first and the
+      measurement is taken away.
+    * For J use the chain rule: how does a square root change, and what is inside it? The result lies between -1
+      and 1, and stands in the column of the pose.
+    """,
+}
+_given: dict[str, int] = {}
+
+
+def hint(stage: str, number: int = 0) -> None:
+    """Print a hint for a stage: the first, at the next call the second, then the third; or the one of this number."""
+    if stage not in HINTS:
+        _say(f"There are hints for {', '.join(HINTS)}, none for {stage!r:.40}.")
+        return
+    texts = HINTS[stage].split("\n    * ")[1:]
+    _given[stage] = number if 1 <= number <= len(texts) else _given.get(stage, 0) % len(texts) + 1
+    _say(f"Hint {_given[stage]} of {len(texts)} for {stage}: {' '.join(texts[_given[stage] - 1].split())}")
 
 
 def failures(stage: str, namespace: dict[str, Any]) -> list[tuple[str, str]]:
@@ -484,8 +573,12 @@ def check_all(namespace: dict[str, Any]) -> None:
             if stage not in BONUS:
                 _say(f"TODO  {stage}: {unfinished}".replace(f": {stage} is ", ": "))
     for name in ("conclusion", "written_2", "written_3"):
-        if namespace.get(name, "") is None:
+        given = namespace.get(name, "A")
+        if given is None:
             print(f"TODO  {name}: it is still None.")
+        elif not isinstance(given, str) or (name == "conclusion" and given.strip().upper() not in list("ABCDEF")):
+            wanted = 'one letter, for example "A"' if name == "conclusion" else "a text"
+            _say(f"FAIL  {name}: got {given!r:.60}, expected {wanted}.")
     print(UNSEEN)
 
 

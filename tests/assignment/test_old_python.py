@@ -21,10 +21,10 @@ OLD = os.environ.get("OLD_PYTHON", "")  # an interpreter of Python 3.9 with nump
 # Everything of numpy that the provided files use. Before a name is added, look it up in numpy 1.22.
 NUMPY = (
     "abs allclose append arange argmax argwhere array array_equal asarray diag empty eye flatnonzero float64 "
-    "frombuffer full hypot int64 integer isfinite isnan linspace nan ndarray ndim ones sqrt where zeros"
+    "frombuffer full hypot int64 integer isfinite isnan linspace ma nan ndarray ndim ones sqrt where zeros"
 )
 
-STANDARD = "__future__ collections.abc contextlib dataclasses pathlib sys textwrap threading traceback typing"
+STANDARD = "__future__ collections.abc contextlib dataclasses pathlib sys textwrap threading traceback types typing"
 
 
 def test_the_oldest_python_is_the_one_that_is_told():

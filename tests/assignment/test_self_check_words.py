@@ -1,12 +1,13 @@
 """What the self-check prints: the grader's words, guesses that lead to the mistake, lines that fit a page."""
 
+import inspect
 import re
 import time
 
 import numpy as np
 import pytest
 
-from autograder.stages import jacobian, residual, sparsity_pattern, wording
+from autograder.stages import answers, jacobian, residual, sparsity_pattern, wording
 from reference_solution import slam1d
 from tests.assignment.mistakes import by_identifier, right_work
 from tests.assignment.running import sentences
@@ -111,7 +112,7 @@ def test_lines_fit_a_page(self_check, capsys, name):
         self_check.check_all({**right_work(), name: function})
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= WIDTH
-    assert {line[:6] for line in lines} <= {"PASS  ", "FAIL  ", "TODO  ", "      ", "What t"}
+    assert {line[:6] for line in lines} <= {"PASS  ", "FAIL  ", "TODO  ", "NOTE  ", "      ", "What t"}
 
 
 def test_a_loop_without_end_says_so(self_check, capsys, monkeypatch):
@@ -148,6 +149,62 @@ def test_an_open_conclusion_is_named_and_never_judged(self_check, capsys):
     assert "conclusion" not in capsys.readouterr().out
     self_check.check_all({"conclusion": None})
     assert "TODO  conclusion: it is still None." in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("given", [["B"], 2, "G", ""], ids=str)
+def test_a_conclusion_of_the_wrong_form_is_named(self_check, capsys, given):
+    """What can be no choice fails here as it does in the grader."""
+    self_check.check_all({"conclusion": given})
+    assert f'FAIL  conclusion: got {given!r}, expected one letter, for example "A".' in capsys.readouterr().out
+    sheet = answers.Sheet("worked-example", self_check.WORKED, np.zeros((4, 5)))
+    finding = answers.conclusion_finding(sheet, given if isinstance(given, str) else None, f"got {given!r}")
+    assert (finding.given, finding.right) == (True, False)
+
+
+def test_hints_grow_and_none_is_the_line(self_check, capsys):
+    """Three a stage, each longer than a word and all different; no hint has code of the reference in it."""
+    assert set(self_check.HINTS) == set(self_check.STAGES)
+    source = inspect.getsource(slam1d)
+    lines = {re.sub(r"\s|return|\w+ =(?!=)", "", line) for line in source.splitlines()}
+    lines = {line for line in lines if len(line) > 8 and not line.startswith(("def", "#", '"""'))}
+    for stage, text in self_check.HINTS.items():
+        hints = [" ".join(part.split()) for part in text.split("\n    * ")[1:]]
+        assert len(set(hints)) == 3
+        assert [line for line in lines if line in re.sub(r"\s", "", " ".join(hints))] == []
+        shown = []
+        for number in (1, 2, 3, 1):
+            self_check.hint(stage)
+            shown.append(" ".join(capsys.readouterr().out.split()))
+            assert shown[-1] == f"Hint {number} of 3 for {stage}: {hints[number - 1]}"
+    self_check.hint("residual", 3)
+    assert "Hint 3 of 3" in capsys.readouterr().out
+    self_check.hint("nothing")
+    assert "There are hints for residual" in capsys.readouterr().out
+
+
+def test_a_bonus_that_was_not_begun_is_no_failure(self_check, capsys):
+    """Whatever is wrong with the core, the bonus is not spoken of before it was begun."""
+
+    def sparsity_pattern(graph):
+        raise NotImplementedError
+
+    broken = {"jacobian": lambda *_: None, "normal_equations": lambda *_: None, "sparsity_pattern": sparsity_pattern}
+    self_check.check_all({**right_work(), **broken})
+    assert "sparsity_pattern" not in capsys.readouterr().out
+
+
+def test_iterates_that_are_one_array_get_advice_that_helps(self_check):
+    """A state that was moved in place stands in all rows: the message says why, and what does not do it."""
+    graph = self_check.WORKED
+    x = graph.dead_reckoning()
+    moved = x.copy()
+    rows = [moved]
+    for _ in range(3):
+        moved += slam1d.gauss_newton_step(moved, graph)
+        rows.append(moved)
+    work = {**right_work(), "__name__": slam1d.__name__, "my_graph": graph, "my_start": x, "iterates": np.array(rows)}
+    ((_, wrong),) = self_check.failures("iterates", work)
+    assert "all rows are one state: x += ... changes the array that is in the list, x = x + ... does not" in wrong
 
 
 def test_the_last_sentence_says_what_is_not_seen(self_check, capsys):
