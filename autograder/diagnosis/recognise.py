@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -87,13 +88,13 @@ class Recogniser:
         def agrees(slip: Slip, index: int) -> bool:
             if index not in given:
                 given[index] = self._given(answers, index)
-            return _agree(self._output(slip, index), given[index], close)
+            return _agree(self._sent(slip, index, answers), given[index], close)
 
         known = slips(self.stage.name)
         for slip in known:
             if slip.pattern is not None or not all(agrees(slip, index) for index in self._first):
                 continue
-            if _all_agree(self._outputs(slip), answers, close):
+            if _all_agree(self._outputs(slip, answers), answers, close):
                 return slip
         met = [(call, self._given(answers, index)) for index, call in enumerate(self.calls)]
         return next((slip for slip in known if slip.pattern is not None and slip.pattern(met)), None)
@@ -117,12 +118,26 @@ class Recogniser:
                 self._known[slip.identifier, number] = answer
         return self._known[key]
 
-    def _outputs(self, slip: Slip) -> Given:
-        """Return all that a slip answers."""
+    def _outputs(self, slip: Slip, answers: Answers) -> Given:
+        """Return all that a slip answers, but for what would not be sent."""
+        found = [self._output(slip, index) for index in range(len(self.calls))]
+        sent = [self._sent(slip, index, answers) for index in range(len(self.calls))]
+        if any(one is not other for one, other in zip(found, sent, strict=True)):
+            return laid_out(sent, self.stage.parts)
         if slip.identifier not in self._whole:
-            found = [self._output(slip, index) for index in range(len(self.calls))]
             self._whole[slip.identifier] = laid_out(found, self.stage.parts)
         return self._whole[slip.identifier]
+
+    def _sent(self, slip: Slip, index: int, answers: Answers) -> tuple[Array, ...] | None:
+        """Return what a slip answers; None where no numbers came, and the slip's are too many to be sent, too.
+
+        A sandbox refuses an array of more than twice the numbers that are expected: a matrix for a step, say.
+        """
+        found = self._output(slip, index)
+        if found is None or answers.outcome[index] == 0:
+            return found
+        most = 2 * max(math.prod(shape) for shape in self.stage.shapes(*self.calls[index]))
+        return None if max(array.size for array in found) > most else found
 
 
 def laid_out(values: Sequence[tuple[Array, ...] | None], parts: int) -> Given:
