@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import shlex
 from collections.abc import Iterable, Mapping, Sequence, Set
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -221,8 +222,9 @@ def report_missing(people: People, assigned: Mapping[str, Assigned], out: Path, 
         click.echo(f"\nNo submission from {len(missing)} of {total} students: {_some(missing)}.", err=True)
         click.echo(f"They are listed in {out / MISSING}.", err=True)
     if nobodys:
+        option = shlex.join(("--is", f"{nobodys[0]}=ID"))
         words = "1 submission is" if len(nobodys) == 1 else f"{len(nobodys)} submissions are"
-        click.echo(f"{words} nobody's of the class: {_first(nobodys)}; say whose with --is {nobodys[0]}=ID.", err=True)
+        click.echo(f"{words} nobody's of the class: {_first(nobodys)}; say whose with {option}.", err=True)
     if nobodys and len(nobodys) == len(assigned):
         click.echo("Nobody of the roster has handed in anything: is it the roster of this class?", err=True)
 

@@ -52,7 +52,7 @@ def mailmerge(
     owner: dict[str, Student] = {}
     if students:
         people = [Person(one.line, tuple(filter(None, (one.student_id, one.email))), (), one.name) for one in students]
-        pairs = pair(results, people, "The roster", given)
+        pairs = pair(results, people, "the roster", given)
         by_line = {student.line: student for student in students}
         owner = {result.submission: by_line[line] for line, result in pairs.by_line.items()}
         if pairs.strangers:

@@ -100,7 +100,7 @@ def pair(
         if line in by_line:
             raise UsageError(
                 f"{by_line[line].submission} and {result.submission} both belong to line {line} of {table}; "
-                "grade again without the one that does not count."
+                "take the upload that does not count away, and grade again."
             )
         by_line[line] = result
     if results and not by_line:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -17,6 +17,7 @@ STAFF = "word of the course staff"
 # `slam1d-1`, `slam1d (2)`: a copy's number, put there by Canvas or a browser, is nobody's id
 _COPY = re.compile(r"-([1-9]\d?)$|\s?\(([1-9]\d?)\)$")
 _SHORT = 3  # an id of fewer signs stands in a file's name by chance
+_LISTED = 4  # names in a sentence
 
 
 @dataclass(frozen=True)
@@ -97,13 +98,21 @@ def match(
     partly = {owner.system for owner in owners if names.id_of(owner.number) is None}
     matcher = _Matcher(names, variants or {}, given or {}, partly)
     found = [matcher.of(upload) for upload in uploads]
-    count = Counter(item.student_id for item in found if item.student_id is not None)
+    of_one: defaultdict[str, list[str]] = defaultdict(list)
+    for item in found:
+        if item.student_id is not None:
+            of_one[item.student_id].append(item.submission)
     return [
-        replace(item, note=_join(item.note, f"{item.student_id} has {count[item.student_id]} submissions"))
-        if item.student_id is not None and count[item.student_id] > 1
+        replace(item, note=_join(item.note, _several(item.student_id, of_one[item.student_id])))
+        if item.student_id is not None and len(of_one[item.student_id]) > 1
         else item
         for item in found
     ]
+
+
+def _several(student: str, names: Sequence[str]) -> str:
+    shown = ", ".join(names[:_LISTED]) + (", ..." if len(names) > _LISTED else "")
+    return f"{student} has {len(names)} submissions ({shown}): take away what does not count, and grade again"
 
 
 @dataclass(frozen=True)

@@ -126,14 +126,14 @@ def test_a_roster_alone_says_whose_each_is(
 ) -> None:
     """Without variants everybody has the worked example; whose a submission is not is said, and the seed stays 0."""
     (tmp_path / "uploads" / "Ann Lee.py").write_text("x = 1\n")
-    (tmp_path / "uploads" / "stranger.py").write_text("x = 2\n")
+    (tmp_path / "uploads" / "a stranger.py").write_text("x = 2\n")
     _, _, err = run("grade", tmp_path / "uploads", "-o", tmp_path / "out", "--roster", files["--roster"])
     people = {one.student_id: one for one in graded["assigned"].values()}
     assert set(people) == {"s1", None}
     assert people["s1"].variant.identifier == "worked-example"
     assert people["s1"].others is None
     assert people[None].note == "It was not clear whose submission this is."
-    assert "1 submission is nobody's of the class: stranger; say whose with --is stranger=ID." in err
+    assert "1 submission is nobody's of the class: a stranger; say whose with --is 'a stranger=ID'." in err
     assert graded["settings"].seed == 0
 
 
@@ -185,7 +185,9 @@ def test_a_student_without_a_variant_is_flagged(
     late = graded["assigned"]["s4"]
     assert late.flag == "s4 has no variant on record."
     assert late.note.endswith("; the answers were judged on the worked example.")
-    assert [one.flag for one in graded["assigned"].values() if one.student_id == "s1"] == ["s1 has 2 submissions."] * 2
+    assert [one.flag for one in graded["assigned"].values() if one.student_id == "s1"] == [
+        "s1 has 2 submissions (s1 first, s1 second): take away what does not count, and grade again."
+    ] * 2
 
 
 def test_a_term_without_its_secret_is_refused(

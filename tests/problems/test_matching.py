@@ -16,6 +16,7 @@ from autograder.problems.roster import Student
 from autograder.problems.secret import Secret
 from autograder.problems.variants import Variant
 
+AGAIN = "take away what does not count, and grade again"
 CLASS = [
     Student("s1", "Ann Lee", "ann@x.edu"),
     Student("s1-b", "Bo Sö Lee", "bo@x.edu"),
@@ -59,8 +60,8 @@ def test_a_folder_is_believed_and_what_contradicts_is_said() -> None:
     place = Owner(place="s10")
     found = match([Upload("a", "hw/s10/s1-b/zoe.py", owner=place), Upload("b", "s10/s1-b.py")], CLASS)
     assert [(item.student_id, item.by) for item in found] == [("s10", "folder")] * 2
-    assert found[0].note == "the folder names s1-b; s10 has 2 submissions"
-    assert found[1].note == "the file name names s1-b; s10 has 2 submissions"
+    assert found[0].note == f"the folder names s1-b; s10 has 2 submissions (a, b): {AGAIN}"
+    assert found[1].note == f"the file name names s1-b; s10 has 2 submissions (a, b): {AGAIN}"
 
 
 ROSTER = [
@@ -149,8 +150,8 @@ def test_doubt_is_said() -> None:
         CLASS,
     )
     assert both == Match("a", None, "", "the folder names s1 and s10; it names nobody of the roster")
-    assert alone == Match("b", "s1", "folder", "s1 has 2 submissions")
-    assert again == Match("c", "s1", "file name", "s1 has 2 submissions")
+    assert alone == Match("b", "s1", "folder", f"s1 has 2 submissions (b, c): {AGAIN}")
+    assert again == Match("c", "s1", "file name", f"s1 has 2 submissions (b, c): {AGAIN}")
     assert nobody == Match("d", "Zoë", "notebook metadata", "the file name names s1 and s10")
 
 
