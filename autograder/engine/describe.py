@@ -156,9 +156,7 @@ def remarks(tasks: Sequence[Task], replies: Sequence[Reply]) -> tuple[str, ...]:
         for kind in sorted(met & _REMARKS.keys()):
             found[f"{function} {_REMARKS[Kind(kind)]}"] = None
         if outputs.reshaped:
-            found[
-                f"{function} returns a column or a row; a vector, shape (m,), is expected, and it was read as one."
-            ] = None
+            found[f"{function} returns a column or a row; a vector is expected, and it was read as one."] = None
         if outputs.mutated >= 0:
             found[f"{function} changes its argument in place; work on a copy."] = None
     return tuple(found)

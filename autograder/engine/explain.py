@@ -18,7 +18,9 @@ from autograder.diagnosis.facts import Answered, facts
 from autograder.diagnosis.probes import Values, derivative_probe, probes, remembers
 from autograder.engine.collect import Reply, ask
 from autograder.engine.describe import swapped
+from autograder.engine.evidence import plainly, simplest
 from autograder.engine.follow import EARLIER, STAGE
+from autograder.engine.judge import STATUS_OF_OUTCOME
 from autograder.engine.normal import array_of, put
 from autograder.engine.plan import Plan, Task
 from autograder.engine.showing import Example, counterexample, why
@@ -27,7 +29,7 @@ from autograder.sandbox.frames import Outcome
 from autograder.sandbox.host import Outputs, Session
 from autograder.stages.base import Stage
 from autograder.stages.same import finite
-from autograder.verdicts import CheckVerdict, StageVerdict
+from autograder.verdicts import CheckVerdict, StageStatus, StageVerdict
 
 
 def wants_explanation(verdict: StageVerdict) -> bool:
@@ -102,7 +104,9 @@ def _explained(
     if verdict.slip is None:
         found += attempt(f"reading facts off {stage.name}", _facts, plan, stage, replies) or []
         found += attempt(f"probing {stage.name}", probed, stage) or []
-    shown = attempt(f"asking {stage.name} small cases", _shown, session, plan, stage)
+    task = next(each for each in plan.tasks_of(plan.stage(verdict.name)) if each.rung.name == check.name)
+    reply = replies.get(task.batch)
+    shown = attempt(f"asking {stage.name} small cases", _shown, session, plan, stage, _kind(task, reply))
     message, example = shown or (check.message, check.counterexample)
     checks = list(verdict.checks)
     checks[number] = replace(check, message=message, counterexample=example)
@@ -115,14 +119,27 @@ def _first_open(verdict: StageVerdict) -> tuple[int, CheckVerdict]:
     return next((number, check) for number, check in enumerate(verdict.checks) if not check.passed and not check.points)
 
 
-def _shown(session: Session, plan: Plan, stage: Stage) -> tuple[str, Example | None] | None:
-    """Ask the gallery; return what is wrong with the simplest case that is, in words and as plain data."""
+def _kind(task: Task, reply: Reply | None) -> StageStatus | None:
+    """Say of which kind the first wrong answer of a check is: wrong values, an exception; None where none came."""
+    if reply is None or reply.failure is not None or reply.right.all():
+        return None
+    return STATUS_OF_OUTCOME[plainly(task, simplest(task, ~reply.right), reply)[0]]
+
+
+def _shown(session: Session, plan: Plan, stage: Stage, kind: StageStatus | None) -> tuple[str, Example | None] | None:
+    """Ask the gallery; return what is wrong with the simplest case that is, in words and as plain data.
+
+    The case goes wrong as that of the exam did, so that status and words agree: an exception is shown for an exception.
+    """
+    if kind is None:
+        return None
     task = plan.gallery_of(stage)
     reply = ask(session, plan, task)
-    if reply.failure is not None or reply.right.all():
+    if reply.failure is not None:
         return None
-    index = int(np.argmin(reply.right))
-    return why(task, index, reply), counterexample(task, index, reply)
+    wrong = (int(index) for index in np.flatnonzero(~reply.right))
+    index = next((each for each in wrong if STATUS_OF_OUTCOME[plainly(task, each, reply)[0]] == kind), None)
+    return None if index is None else (why(task, index, reply), counterexample(task, index, reply))
 
 
 def _facts(plan: Plan, stage: Stage, replies: Mapping[int, Reply]) -> list[str]:

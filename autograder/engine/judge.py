@@ -29,7 +29,7 @@ _STATUS_OF_FAILURE: dict[str, StageStatus] = {
     "output": "error",
     "violation": "error",
 }
-_STATUS_OF_OUTCOME: dict[Outcome, StageStatus] = {
+STATUS_OF_OUTCOME: dict[Outcome, StageStatus] = {
     Outcome.RAISED: "error",
     Outcome.FORBIDDEN: "forbidden",
     Outcome.MEMORY: "memory",
@@ -72,7 +72,7 @@ class Judge:
         status: StageStatus = next((reason for check, reason in judged if not check.passed), "passed")
         checks = [check for check, _ in judged]
         said = _redefined(stage, status, collected)
-        if not wrong or status == "passed":
+        if not wrong or status in {"passed", "missing"}:
             return _verdict(stage, points, checks, status, lead=said)
         apart = [collected.apart.get((stage.name, task.rung.name)) for task in tasks]
         checks = [self._by_itself(check, found) for check, found in zip(checks, apart, strict=True)]
@@ -81,7 +81,8 @@ class Judge:
 
     def _mend(self, wrong: Sequence[str], checks: Sequence[CheckVerdict], apart: Sequence[Reply | None]) -> str:
         """Say what to mend first, and what asking the step by itself has shown."""
-        first = f"Mend {' and '.join(wrong)} first, which the step builds on."
+        names = " and ".join(part for part in (", ".join(wrong[:-1]), wrong[-1]) if part)
+        first = f"Mend {names} first, which the step builds on."
         again = "it was asked again, on other graphs and with right functions in the place of yours."
         if any(found is not None and found.failure is None and not found.passed for found in apart):
             return f"{first} The step is wrong by itself, too: {again}"
@@ -153,4 +154,4 @@ def _check(task: Task, reply: Reply, points: float) -> tuple[CheckVerdict, Stage
     if reply.passed:
         return _passed(task, points), "passed"
     outcome, message = plainly(task, simplest(task, ~reply.right), reply)
-    return _failed(task, points, message), _STATUS_OF_OUTCOME[outcome]
+    return _failed(task, points, message), STATUS_OF_OUTCOME[outcome]

@@ -56,7 +56,7 @@ def test_every_part_of_a_verdict_is_compared() -> None:
 def test_remarks_are_compared_by_kind() -> None:
     """A remark that is not stated, one that is missing, and one of no known kind are seen."""
     line = "# expect: others=passed remark=rows; rows."
-    row = "f returns a column or a row; a vector, shape (m,), is expected, and it was read as one."
+    row = "f returns a column or a row; a vector is expected, and it was read as one."
     assert cells(line, verdict("residual", "passed", remarks=(row,)))["remarks"] == ("rows", "rows")
     assert cells(line, verdict("residual", "passed"))["remarks"] == ("rows", "none")
     assert cells(line, verdict("residual", "passed", remarks=("new",)))["remarks"] == ("rows", "new")

@@ -179,3 +179,11 @@ def test_a_step_on_a_wrong_function_is_told_to_mend_that_first(explained):
     verdict, shown = explained(text, "second_step")
     assert verdict.message.startswith("Mend residual first, which the step builds on. The step is wrong by itself, too")
     assert shown["graph"] not in [plain(graph) for _, graph in gallery("loops")]
+
+
+@pytest.mark.parametrize(("on_two", "else_"), [("value[0, 0] += 1", "raise OverflowError"), ("1 / 0", "value *= 2")])
+def test_status_and_words_are_of_one_kind(explained, on_two, else_):
+    """What raised on the exam is shown raising, what was wrong is shown wrong, though a smaller case does the other."""
+    body = f"\n    if graph.n_poses == 2: {on_two}\n    else: {else_}\n    return value"
+    verdict, shown = explained(wrapped("information_matrix", body, "graph"), "information_matrix")
+    assert (verdict.status == "error") == (" raised " in verdict.message) == isinstance(shown["got"], str)
