@@ -108,6 +108,6 @@ def test_every_command_in_a_sentence_is_known() -> None:
         command = cli.cli.get_command(None, name)  # type: ignore[arg-type] - the context is not looked at
         assert command is not None, line
         if name == "export" and arguments:
-            command = command.get_command(None, arguments[0])  # type: ignore[attr-defined]
+            command = command.get_command(None, arguments[0])  # type: ignore[attr-defined] - a group of commands
         known = {option for parameter in command.params for option in parameter.opts}
         assert {word for word in arguments if word.startswith("-")} <= known, line

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from tests.intake.making import CODE
+from tests.marking.written import answered
 from tests.reports.examples import result
 
 Ended = tuple[int, str, str]
@@ -124,3 +125,57 @@ def test_what_is_refused_changes_nobodys_membership(
     command = ("grade", tmp_path / "uploads", "-o", out, "--is", "s08=x8", "--exam", tmp_path / "broken.exam")
     assert run(*command)[0] == 2
     assert {path: path.read_bytes() for path in out.rglob("*") if path.is_file()} == before
+
+
+def test_marks_outlive_a_night_of_mistakes(
+    run: Callable[..., Ended], graded: dict[str, Any], upload: Path, tmp_path: Path
+) -> None:
+    """Marks, an override and an owner stand after old sheets, a forgotten course, one late file and a lost upload."""
+    out, course = tmp_path / "out", tmp_path / "course.toml"
+    course.write_text('title = "Robotics"\n[points]\nwritten = 10\n')
+    (upload.parent / "ann.py").write_text(CODE)
+    graded["results"] = [answered("alice", student_id="s1"), answered("ann", student_id="s2")]
+    grade = ("grade", upload.parent, "-o", out)
+    assert run(*grade, "--is", "alice=s1")[0] == 0
+    empty = (out / "written.csv").read_text("utf-8-sig")
+    filled = tmp_path / "filled.csv"
+    rows = list(csv.DictReader(io.StringIO(empty)))
+    with filled.open("w", newline="") as file:
+        writer = csv.DictWriter(file, rows[0])
+        writer.writeheader()
+        writer.writerows([row | {"points": row["max_points"], "comment": "good"} for row in rows])
+    assert run("report", out, "--marks", filled)[0] == 0
+    (out / "overrides.csv").write_text(
+        "student,stage,points,reason,who,when\nalice,residual,1,copied,Prof,2026-11-20\n", encoding="utf-8"
+    )
+    assert run("report", out)[0] == 0
+    before = _scores(out)
+    assert before["ann"] == 100.0
+    kept = {name: (out / name).read_bytes() for name in ("marks.csv", "overrides.csv", "owners.csv")}
+    (tmp_path / "old.csv").write_text(empty, encoding="utf-8")
+    mistakes: list[tuple[object, ...]] = [
+        ("report", out, "--marks", tmp_path / "old.csv"),  # the sheet of before anybody read
+        ("report", out, "--marks", filled),  # read a second time
+        (*grade, "--course", course),  # other points,
+        grade,  # and forgotten again
+        (*grade, "--only", "ann"),
+        ("grade", upload.parent / "ann.py", "-o", out),
+        ("report", out),
+    ]
+    for mistake in mistakes:
+        run(*mistake)
+        assert {name: (out / name).read_bytes() for name in kept} == kept, mistake
+    assert _scores(out) == before
+    upload.unlink()
+    graded["results"] = graded["results"][1:]
+    assert "is gone now (alice): kept aside" in run(*grade)[2]
+    upload.write_text(CODE)
+    graded["results"] = [answered("alice", student_id="s1"), *graded["results"]]
+    run(*grade)
+    assert _scores(out) == before
+    assert {name: (out / name).read_bytes() for name in kept} == kept
+
+
+def _scores(out: Path) -> dict[str, float]:
+    text = (out / "grades.csv").read_text("utf-8-sig")
+    return {row["submission"]: float(row["score"]) for row in csv.DictReader(io.StringIO(text))}
