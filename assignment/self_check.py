@@ -421,8 +421,8 @@ HINTS = {
     "residual": """
     * Every factor has one row: the edges first, in the given order, then the priors. What has each of them to
       say?
-    * For an edge, three numbers meet: where it begins, what it measured, where it ends. Where would the
-      measurement put pose j, and where does the state put it?
+    * The row of an edge is where the edge puts pose j, minus where the state puts it. The row of a prior is
+      where the state puts pose i, minus the mean.
     * graph.edges[:, 0] holds the tails of all edges; x indexed with such an array gives all their places at
       once. Do the same for the heads, and for graph.priors; np.concatenate joins edges and priors.
     """,

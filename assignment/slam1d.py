@@ -26,8 +26,8 @@ my_start.setflags(write=False)  # x += dx would move it; write x = x + dx
 def residual(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """Stack what every factor says is wrong with the state x: the vector f.
 
-    A between factor from pose i to pose j predicts x_j by the motion model x_i + u_ij, so its row
-    is x_i + u_ij - x_j. A prior factor on pose i with mean mu_i has the row x_i - mu_i.
+    The row of an edge is where the edge puts pose j, minus where the state puts it: x_i + u_ij - x_j.
+    The row of a prior is where the state puts pose i, minus the mean: x_i - mu_i.
 
     Parameters
     ----------

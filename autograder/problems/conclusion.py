@@ -26,7 +26,7 @@ CHOICES: dict[str, str] = {
     "good_start": "Dead reckoning is a good initial estimate; from a bad one, the further steps would look different.",
     "loop_closed": "The first step closes the loop: now all measurements agree with the state, and f is zero.",
     "float_noise": "The computer rounds: small or not, each further step still improves the estimate.",
-    "linear": "J is the same at every x, so where the first step ends does not depend on where it began.",
+    "linear": "f is of a kind with which the first step ends at the same place, from wherever it began.",
 }
 """Identifier -> text; the texts are printed in the handout, the identifiers are not."""
 

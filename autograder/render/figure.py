@@ -226,9 +226,14 @@ def bars(
 
 
 def curves(
-    title: str, across: str, up: str, series: Mapping[str, Sequence[tuple[float, float]]], log_x: bool = False
+    title: str,
+    across: str,
+    up: str,
+    series: Mapping[str, Sequence[tuple[float, float]]],
+    log_x: bool = False,
+    log_y: bool = True,
 ) -> str:
-    """Draw curves over a logarithmic vertical axis, each with a mark and a dash pattern of its own.
+    """Draw up to three curves, each with a mark and a dash pattern of its own.
 
     Parameters
     ----------
@@ -236,8 +241,8 @@ def curves(
         What is shown, and the names of the two axes with their units.
     series : mapping of name to points (x, y)
         A point with y <= 0 has no logarithm: it is drawn on the bottom line, which is then marked 0.
-    log_x : bool
-        Whether the horizontal axis is logarithmic too.
+    log_x, log_y : bool
+        Whether the horizontal and the vertical axis are logarithmic.
 
     Returns
     -------
@@ -245,17 +250,17 @@ def curves(
         The picture as SVG.
     """
     points = [point for curve in series.values() for point in curve]
-    decades = [math.log10(y) for _x, y in points if y > 0]
-    nothing = min(y for _x, y in points) <= 0
-    low = math.floor(min(decades) + 1e-9) - 1.0 if nothing else min(decades) - 0.15
-    high = math.ceil(max(decades) - 1e-9)
+    levels = [math.log10(y) if log_y else y for _x, y in points if y > 0 or not log_y]
+    nothing = log_y and min(y for _x, y in points) <= 0
+    low = math.floor(min(levels) + 1e-9) - 1.0 if nothing else min(levels) - 0.15
+    high = math.ceil(max(levels) - 1e-9) + (not log_y and max(levels) == min(levels))
     xs = sorted({x for x, _y in points})
     place = {x: math.log10(x) if log_x else float(x) for x in xs}
     span = place[xs[-1]] - place[xs[0]] or 1.0
     left, right, top, bottom = 84.0, 470.0, 44.0, 284.0
 
     def spot(x: float, y: float) -> tuple[float, float]:
-        level = math.log10(y) if y > 0 else low
+        level = y if not log_y else math.log10(y) if y > 0 else low
         part = (max(level, low) - low) / (high - low)
         return left + (right - left) * (place[x] - place[xs[0]]) / span, bottom - (bottom - top) * part
 
@@ -263,23 +268,27 @@ def curves(
     for decade in range(math.ceil(low), high + 1, max(1, int(high - low) // 6)):
         y = bottom - (bottom - top) * (decade - low) / (high - low)
         parts.append(f'<path d="M{left:g} {_(y)} H{right:g}" stroke="#c9c9c9" stroke-width="0.7"/>')
-        parts.append(_text(left - 8, y + 5, "0" if nothing and decade == low else f"1e{decade}", "end"))
+        parts.append(
+            _text(left - 8, y + 5, "0" if nothing and decade == low else f"1e{decade}" if log_y else f"{decade}", "end")
+        )
     parts += [_text(spot(x, 1.0)[0], bottom + 20, f"{x:g}") for x in xs]
     parts.append(_text((left + right) / 2, bottom + 42, across))
     parts.append(f'<text transform="translate(22 {(top + bottom) / 2:g}) rotate(-90)" text-anchor="middle">{up}</text>')
     for index, (name, curve) in enumerate(series.items()):
         drawn = [spot(x, y) for x, y in curve]
         path = "M" + " L".join(f"{_(x)} {_(y)}" for x, y in drawn)
-        parts.append(_line(path, ' stroke-dasharray="7 4"' if index else ""))
-        parts += [_mark(x, y, hollow=index > 0) for x, y in drawn]
+        parts.append(_line(path, ("", ' stroke-dasharray="7 4"', ' stroke-dasharray="2 3"')[min(index, 2)]))
+        parts += [_mark(x, y, index) for x, y in drawn]
         key = top + 10 + 24 * index
-        parts += [_mark(right + 24, key, hollow=index > 0), _text(right + 38, key + 5, name, "start")]
+        parts += [_mark(right + 24, key, index), _text(right + 38, key + 5, name, "start")]
     told = [f"{name}: " + ", ".join(f"{y:.2g} at {x:g}" for x, y in curve) for name, curve in series.items()]
     return _svg(660, bottom + 56, title, f"{up} over {across}. {'; '.join(told)}.", parts)
 
 
-def _mark(x: float, y: float, hollow: bool) -> str:
-    if hollow:
+def _mark(x: float, y: float, kind: int) -> str:
+    if kind > 1:
+        return f'<path d="M{_(x)} {_(y - 6)} l6 10 h-12 z" fill="white" stroke="{FILL}" stroke-width="2"/>'
+    if kind:
         box = f'x="{_(x - 5)}" y="{_(y - 5)}" width="10" height="10"'
         return f'<rect {box} fill="white" stroke="{FILL}" stroke-width="2"/>'
     return f'<circle cx="{_(x)}" cy="{_(y)}" r="5" fill="{FILL}"/>'

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import json
+import textwrap
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -64,6 +65,15 @@ def provided(name: str) -> str:
     return resources.files("assignment").joinpath(name).read_text(encoding="utf-8")
 
 
+def in_words() -> str:
+    """Write what is to be seen in the pictures of the corridor as Python, in lines that are not cut off."""
+    texts = {"J_IN_WORDS": landmarks.J_IN_WORDS, "H_IN_WORDS": landmarks.H_IN_WORDS}
+    lines = [(name, textwrap.wrap(text, 90, drop_whitespace=False)) for name, text in texts.items()]
+    return "\n".join(
+        f"{name} = (\n" + "".join(f"    {part!r}\n".replace("'", '"') for part in parts) + ")" for name, parts in lines
+    )
+
+
 @cache
 def _carried() -> dict[str, Any]:
     """Texts that the notebooks carry along, so that they work alone."""
@@ -72,6 +82,7 @@ def _carried() -> dict[str, Any]:
         "self_check": provided("self_check.py").partition('\n\nif __name__ == "__main__"')[0] + "\n",
         "figure": inspect.getsource(figure),
         "corridor": inspect.getsource(landmarks.corridor),
+        "corridor_words": in_words(),
         "fill_in": inspect.getsource(landmarks.fill_in),
         "stubs": stubs(reference_source()),
     }

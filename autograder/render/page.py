@@ -66,6 +66,7 @@ def _parser() -> MarkdownIt:
     parser.inline.ruler.before("escape", "math", _math)
     parser.add_render_rule("math", _render_math)
     parser.add_render_rule("image", _render_image)
+    parser.add_render_rule("heading_open", _render_heading)
     parser.add_render_rule("table_open", _render_table)
     parser.add_render_rule("table_close", _render_table)
     return parser
@@ -123,6 +124,12 @@ def _length(markup: str) -> int:
 
 def _render_math(_: RendererHTML, tokens: Sequence[Token], index: int, __: Any, ___: Any) -> str:
     return _formula(tokens[index].content, tokens[index].markup)
+
+
+def _render_heading(_: RendererHTML, tokens: Sequence[Token], index: int, __: Any, ___: Any) -> str:
+    """Name a heading after its words, as GitHub does, so that a table of contents leads there."""
+    name = re.sub(r"[^\w -]", "", tokens[index + 1].content.lower()).replace(" ", "-")
+    return f'<{tokens[index].tag} id="{name}">'
 
 
 def _render_image(_: RendererHTML, tokens: Sequence[Token], index: int, __: Any, env: Any) -> str:

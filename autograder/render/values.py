@@ -32,6 +32,10 @@ PLAN = (
     ("question 3", 25),
 )
 WORDS = ("none", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+SIGN = (  # the one rule of the signs, in the words of docstring and hints
+    "The row of an edge is where the edge puts pose $j$, minus where the state puts it: $x_i + u_{ij} - x_j$. "
+    "The row of a prior is where the state puts pose $i$, minus the mean: $x_i - \\mu_i$."
+)
 OLDEST_PYTHON = "3.9"  # on which a student's files run
 
 
@@ -54,6 +58,7 @@ def values(problem: Problem, grading: Grading | None = None) -> dict[str, Any]:
             for k, (true, start) in enumerate(zip(problem.truth, problem.start, strict=True))
         ],
         "plan": PLAN,
+        "sign": SIGN,
         **(grading or Grading()).words(),
         "oldest_python": OLDEST_PYTHON,
         "explore_minutes": 60,

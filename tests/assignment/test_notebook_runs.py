@@ -15,6 +15,8 @@ from assignment.posegraph import PoseGraph
 from autograder.problems.problem import worked_problem
 from autograder.render.facts import solve
 from autograder.render.handout import render_assignment
+from autograder.render.stub import reference_source
+from autograder.render.template import source
 from autograder.stages.slips import information_matrix
 from tests.assignment.running import reference_functions, run, sentences, text_of
 
@@ -110,7 +112,8 @@ def test_the_notebook_shows_what_was_gained(finished):
 
 def test_the_size_of_each_step_is_printed(finished):
     """Four digits of an array hide what a later step is; beside question 2 it stands with its power of ten."""
-    lines = text_of(finished[0], "step-sizes").splitlines()
+    *lines, drawn = text_of(finished[0], "step-sizes").splitlines()
+    assert drawn.startswith("Size of the steps. ")
     assert [line.partition(":")[0] for line in lines] == ["step 1", "step 2", "step 3"]
     first, *later = (float(line.split()[-2]) for line in lines)
     assert first == pytest.approx(np.abs(solve(worked_problem()).dx).max(), rel=0.05)
@@ -201,7 +204,10 @@ def test_the_pictures_are_drawn(finished):
         "walk": 1,
         "spy-j": 1,
         "spy-h": 1,
+        "compare": 1,
         "pictures": 2,
+        "step-sizes": 1,
+        "along-a-line-code": 1,
     }
     for data in (data for drawn in pictures.values() for data in drawn):
         image = ElementTree.fromstring(data["text/html"].replace('">', '"/>'))
@@ -222,6 +228,20 @@ def test_explore_runs_beside_the_finished_notebook(finished):
     assert text_of(explored, "gauge-code").startswith("rank 4 of 5")
     assert "1527 new pairs" in text_of(explored, "fill-in-code")
     assert "[0.032 0.095 0.114 0.114 0.095]" in text_of(explored, "marginals-code")
+
+
+@pytest.mark.parametrize("number", range(1, 7))
+def test_explore_runs_from_any_section(notebooks, tmp_path, number):
+    """After the provided cells each section runs by itself, whatever was run before it."""
+    provided, *sections = re.split(r"(?m)^## \d+\. ", source("explore.ipynb.j2"))
+    names = set(re.findall(r"(?m)^%% (?:code|provided) (\S+)", provided))
+    own = names | set(re.findall(r"(?m)^%% code (\S+)", sections[number - 1]))
+    cells = [
+        deepcopy(c) for c in notebooks["explore.ipynb"].cells if c.id in own | {"provided-files", "provided-pictures"}
+    ]
+    (tmp_path / "slam1d.py").write_text(reference_source(), encoding="utf-8")
+    _ran, stopped = run(new_notebook(cells=cells), reference_functions(), tmp_path)
+    assert stopped is None
 
 
 def test_explore_alone_stops_with_a_sentence(notebooks, tmp_path):

@@ -109,7 +109,7 @@ def prior_residual_opposite_sign(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
 def between_residual_opposite_sign(x: np.ndarray, graph: PoseGraph) -> np.ndarray:
     """The rows of all between factors have the opposite sign.
 
-    The handout fixes the row as predicted minus actual position of the second pose; which does the measurement give?
+    The row of an edge is where the edge puts pose j, minus where the state puts it; which does the measurement give?
     """
     f = right.residual(x, graph)
     f[: len(graph.edges)] *= -1.0
