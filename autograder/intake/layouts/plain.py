@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from autograder.intake.inside import problem_inside
 from autograder.intake.tree import HANDED_OUT, Entry, Tree, is_candidate
-from autograder.intake.upload import HOMEWORK, Upload, listing
+from autograder.intake.upload import HOMEWORK, Upload, is_begun, listing
 
 TITLE = "plain folder of files"
 
@@ -23,16 +23,21 @@ def gather(tree: Tree) -> list[Upload]:
     """Take every file that is a submission by its name or by what is inside; what is neither is reported.
 
     What lies beside a file that has the homework's name goes with that one, as a figure does; so does what is neither
-    and is called as the submission beside it: jane.html, printed of jane.ipynb.
+    and is called as the submission beside it: jane.html, printed of jane.ipynb. Of jane.py and jane.ipynb the one that
+    was begun counts; where both were, both are there for a human.
     """
     uploads: list[Upload] = []
     beside = Counter(entry.parts[:-1] for entry in tree.entries if is_candidate(entry))
     of_one = {entry.parts[:-1] for entry in tree.entries if is_candidate(entry) and _is_homework(entry)}
-    called = {_called(entry) for entry in tree.entries if is_candidate(entry)}
-    going_with: dict[tuple[str, ...], list[str]] = {}
+    called: defaultdict[tuple[str, ...], list[Entry]] = defaultdict(list)
+    for entry in filter(is_candidate, tree.entries):
+        called[_called(entry)].append(entry)
+    going_with = {key: _unbegun(entries) for key, entries in called.items()}
     for entry in tree.entries:
         place = entry.parts[:-1]
         folder = entry.parts[-2] if len(entry.parts) > 1 else tree.name
+        if is_candidate(entry) and entry.name in going_with[_called(entry)]:
+            continue
         if is_candidate(entry):
             # the name under which the homework is handed out does not say whose it is
             name = folder if _is_homework(entry) and beside[place] == 1 else entry.stem
@@ -42,7 +47,7 @@ def gather(tree: Tree) -> list[Upload]:
         ):
             problem = problem_inside(entry)
             if problem and _called(entry) in called and not entry.closed_folder:
-                going_with.setdefault(_called(entry), []).append(entry.name)
+                going_with[_called(entry)].append(entry.name)
             else:
                 uploads.append(Upload(name=_called(entry)[-1], entry=entry, problem=problem, folder=folder))
     nothing = not any(is_candidate(entry) or entry.closed_folder for entry in tree.entries)
@@ -54,6 +59,12 @@ def gather(tree: Tree) -> list[Upload]:
 def _called(entry: Entry) -> tuple[str, ...]:
     """Return where a file lies and what its submission is called: ada of ada.py.txt."""
     return (*entry.parts[:-1], re.sub(r"\.(?:py|ipynb)$", "", entry.stem, flags=re.IGNORECASE))
+
+
+def _unbegun(entries: Sequence[Entry]) -> list[str]:
+    """Name those of one student's files that do not count, because one other alone was begun."""
+    begun = [entry for entry in entries if is_begun(entry)] if len(entries) > 1 else []
+    return [entry.name for entry in entries if entry not in begun] if len(begun) == 1 else []
 
 
 def _with(upload: Upload, going_with: Mapping[tuple[str, ...], Sequence[str]]) -> Upload:

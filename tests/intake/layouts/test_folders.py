@@ -116,6 +116,17 @@ def test_a_page_beside_the_notebook_of_the_same_name_goes_with_it(tmp_path: Path
     assert sum(not each.rejection for each in two.values()) == 2
 
 
+def test_of_two_files_of_one_name_what_was_begun_counts(tmp_path: Path) -> None:
+    """As in every other layout: the untouched notebook beside a solved module is no submission of its own."""
+    handed_out = (Path(__file__).parents[3] / "assignment/slam1d.ipynb").read_bytes()
+    found = by_id(write(tmp_path, {"jane.py": CODE, "jane.ipynb": handed_out, "bob.ipynb": handed_out}))
+    assert list(found) == ["bob", "jane"]
+    assert found["jane"].path.endswith("jane.py")
+    assert found["jane"].notes == ("Graded jane.py; also handed in and not graded: jane.ipynb.",)
+    both = by_id(write(tmp_path, {"jane.ipynb": notebook(cell())}))
+    assert list(both) == ["bob", "jane", "jane-2"]
+
+
 def test_files_and_folders_of_students_may_stand_side_by_side(tmp_path: Path) -> None:
     """A folder with one submission in it names it; a folder of something else is nobody's."""
     write(tmp_path, {"alice.py": CODE, "bob.ipynb": "", "carol/hw.py": CODE, "figures/x.png": "", "dave/x.py": CODE})
