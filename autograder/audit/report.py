@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from autograder.audit.blame import Blame, blame
 from autograder.audit.cases import SPECIMENS, Case, all_cases
 from autograder.audit.examine import Done, Examined, examine
 from autograder.audit.expectation import Cell, compare
 from autograder.audit.matrix import Power, kill_matrix, powers
+from autograder.audit.words import meaning
 from autograder.course import Course
 from autograder.engine.exam import draw_exam
 from autograder.stages.base import Stage
 from autograder.stages.catalogue import all_stages
+from autograder.verdicts import StageVerdict
 
 FAULTS = ("false alarm", "miss", "misjudged")
 
@@ -27,6 +30,7 @@ class Row:
     name: str
     cells: tuple[Cell, ...]
     sentence: str = ""
+    blame: Blame | None = None
 
     @property
     def wrong(self) -> tuple[Cell, ...]:
@@ -94,9 +98,16 @@ class Audit:
                     "name": row.name,
                     "right": not row.wrong,
                     "cells": [
-                        {"stage": cell.stage, "expected": cell.expected, "got": cell.got, "right": cell.right}
+                        {
+                            "stage": cell.stage,
+                            "expected": cell.expected,
+                            "got": cell.got,
+                            "right": cell.right,
+                            "meaning": meaning(cell),
+                        }
                         for cell in row.cells
                     ],
+                    "blame": "" if row.blame is None else row.blame.why,
                 }
                 for row in self.rows
             ],
@@ -153,16 +164,31 @@ def audit(
     """
     stages = tuple(stage for stage in all_stages() if stage.name in course.stages)
     cases = [case for case in all_cases(stages, specimens) if wanted(case)]
-    examined = examiner([case.source for case in cases], stages, draw_exam(seed, examples), course, on_done)
-    pays = course.follow_through > 0
+    course = replace(course, seed=seed, examples=examples)
+
+    def judged(some: Sequence[Case], under: Course, workers: int | None, told: Done) -> Examined:
+        exam = draw_exam(under.seed or 0, under.examples)
+        return examiner([case.source for case in some], stages, exam, under, told, workers)
+
+    def wrong(some: Sequence[Case], under: Course, workers: int) -> list[str]:
+        found = judged(some, under, workers, lambda *_: None)
+        rows = [_row(case, verdicts, under) for case, verdicts in zip(some, found.verdicts, strict=True)]
+        return [row.wrong[0].got.partition(":")[0] if row.wrong else "" for row in rows]
+
+    examined = judged(cases, course, None, on_done)
     graded = list(zip(cases, examined.verdicts, strict=True))
-    rows = tuple(
-        Row(case.kind, case.name, tuple(compare(case.expected, verdicts, follow_through=pays)), case.expected.sentence)
-        for case, verdicts in graded
-    )
+    rows = tuple(_row(case, verdicts, course) for case, verdicts in graded)
+    bad = [case for case, row in zip(cases, rows, strict=True) if row.wrong]
+    reasons = blame(bad, course, wrong) if bad else {}
+    rows = tuple(replace(row, blame=reasons.get(row.name)) if row.wrong else row for row in rows)
     matrix = {stage.name: _matrix(stage, graded) for stage in stages}
     found = tuple(power for stage in stages if matrix[stage.name] for power in powers(stage, matrix[stage.name]))
     return Audit(seed, examples, examined.confinement, rows, {k: v for k, v in matrix.items() if v}, found)
+
+
+def _row(case: Case, verdicts: Sequence[StageVerdict], course: Course) -> Row:
+    cells = compare(case.expected, verdicts, follow_through=course.follow_through > 0)
+    return Row(case.kind, case.name, tuple(cells), case.expected.sentence)
 
 
 def _matrix(stage: Stage, graded: Sequence[tuple[Case, Any]]) -> dict[str, tuple[bool, ...]]:

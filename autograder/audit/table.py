@@ -2,25 +2,47 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator, Sequence
 
 from autograder.audit.cases import KINDS
 from autograder.audit.report import Audit
+from autograder.audit.words import meaning
 
 
 def text(audit: Audit, *, verbose: bool = False) -> str:
     """Write the whole audit as text; `verbose` shows the right rows too."""
-    parts = [_cells(audit, verbose), _counts(audit), _matrix(audit), _powers(audit), [_verdict(audit)]]
+    parts = [_cells(audit, verbose), _blames(audit), _counts(audit), _matrix(audit), _powers(audit), [_verdict(audit)]]
     return "\n\n".join("\n".join(part) for part in parts if part)
 
 
 def _cells(audit: Audit, verbose: bool) -> list[str]:
     found = [
-        (row.kind, row.name, cell.stage, cell.expected, cell.got, cell.fault or "right")
+        (
+            row.kind,
+            row.name,
+            cell.stage,
+            cell.expected,
+            cell.got,
+            f"{cell.fault}: {meaning(cell)}" if cell.fault else "right",
+        )
         for row in audit.rows
         for cell in (row.cells if verbose else row.wrong)
     ]
     return _aligned([("kind", "case", "stage", "expected", "got", ""), *found]) if found else []
+
+
+def _blames(audit: Audit) -> list[str]:
+    """Say what is to blame, and for which cases."""
+    named: dict[str, list[str]] = {}
+    for row in audit.wrong:
+        named.setdefault("Not tried again, for others were" if row.blame is None else row.blame.why, []).append(
+            row.name
+        )
+    found = []
+    for why, names in named.items():
+        found += textwrap.wrap(f"{why.rstrip('.')}: {', '.join(names)}.", 100, subsequent_indent="  ")
+    return ["What is to blame", *found] if found else []
 
 
 def _counts(audit: Audit) -> list[str]:

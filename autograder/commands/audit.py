@@ -26,7 +26,8 @@ def command(course_file: Path | None, seed: int | None, examples: int | None, ve
 
     The reference, the unfinished stub, correct answers in many styles, known mistakes and hostile
     submissions go through the grader as a class does. Run it after you have changed points,
-    stages or tolerances: it says whether the exam still catches what it should, and nothing else.
+    stages or tolerances: it says whether the exam still catches what it should. What is wrong is explained, and
+    tried again, alone and with the defaults, to say whether a setting, the machine or the grader is to blame.
 
     \b
     autograder audit

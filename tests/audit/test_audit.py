@@ -68,7 +68,12 @@ def test_a_clean_audit_is_one_line_and_numbers(found: Audit) -> None:
 
 
 def in_this_process(
-    sources: Sequence[Source], stages: Sequence[Stage], exam: Exam, course: Course, _on_done: Any
+    sources: Sequence[Source],
+    stages: Sequence[Stage],
+    exam: Exam,
+    course: Course,
+    _on_done: Any,
+    _workers: int | None = None,
 ) -> Examined:
     """Judge in this process, where a test can blunt a stage; submissions still run in their sandbox."""
     plan = make_plan(stages, {stage.name: course.points[stage.name] for stage in stages}, exam.corpus)
@@ -110,7 +115,10 @@ def test_a_widened_tolerance_is_a_miss(monkeypatch: pytest.MonkeyPatch) -> None:
     found = audited(*ROUNDED)
     steps = {("gauss_newton_step", "false alarm"), ("second_step", "false alarm")}
     assert faults(found) == {("residual", "miss"), *steps}
-    assert "The exam is not sharp: 3 cases, 2 false alarms, 1 misses" in text(found)
+    shown = text(found)
+    assert "The exam is not sharp: 3 cases, 2 false alarms, 1 misses" in shown
+    assert "miss: a wrong answer passes" in shown
+    assert "The grader itself, not a setting" in shown
     assert not found.clean
 
 

@@ -37,9 +37,7 @@ def test_a_wrong_cell_ends_with_1(found: Audit, monkeypatch: pytest.MonkeyPatch)
     row = Row("correct", "style_99.py", (Cell("residual", "passed", "failed"),))
     code, output = run(monkeypatch, replace(found, rows=(*found.rows, row)))
     assert code == 1
-    assert ["correct", "style_99.py", "residual", "passed", "failed", "false", "alarm"] in [
-        line.split() for line in output.splitlines()
-    ]
+    assert "passed failed false alarm: a right answer loses points" in " ".join(output.split())
     code, output = run(monkeypatch, replace(found, rows=(row,)), "--json")
     assert (code, json.loads(output)["faults"]["false alarm"]) == (1, 1)
 
