@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -78,7 +79,7 @@ def _write_answers(out: Path, found: Decided, anonymous: bool) -> None:
     if unread(out / FILE, answers, key):
         say(
             f"{out / FILE} holds marks that are not read yet and was not written over; "
-            f"take them: autograder report {out} --marks {out / FILE}"
+            f"take them: {shlex.join(('autograder', 'report', str(out), '--marks', str(out / FILE)))}"
         )
     else:
         for name in (LAST, FILE):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import shlex
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -103,7 +104,9 @@ def _read(path: Path) -> str:
     try:
         if not path.is_file():
             words = "is no file" if path.exists() else "does not exist"
-            raise UsageError(f"The course file {path} {words}; `autograder init {path}` writes one to start from.")
+            raise UsageError(
+                f"The course file {path} {words}; `autograder init {shlex.quote(str(path))}` writes one to start from."
+            )
         with path.open("rb") as file:
             data = file.read(MAX_FILE + 1)
     except OSError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import shlex
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -107,7 +108,7 @@ def members_after(
     if gone:
         notes.append(
             f"{_submissions(gone, 'was', 'were')} handed in before and {'is' if len(gone) == 1 else 'are'} gone now "
-            f"({_some(gone)}): kept aside; `autograder report {out} --forget NAME` drops it."
+            f"({_some(gone)}): kept aside; `autograder report {shlex.quote(str(out))} --forget NAME` drops it."
         )
     if back:
         notes.append(f"{_submissions(back, 'was', 'were')} kept aside and handed in again: {_some(back)}.")
@@ -117,7 +118,7 @@ def members_after(
         notes.append(
             f"{_submissions(staying, 'is', 'are')} not in what was given now and "
             f"{'stays' if len(staying) == 1 else 'stay'} ({_some(staying)}); "
-            f"`autograder report {out} --forget NAME` drops one."
+            f"`autograder report {shlex.quote(str(out))} --forget NAME` drops one."
         )
     return Change(record, tuple(gone), staying, tuple(notes))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -69,6 +70,16 @@ def test_a_removed_upload_is_kept_aside_for_every_command_and_said(
     forget(out, ["bob"])
     assert not (out / "results/bob.json").exists()
     assert read_members(out).aside == ()
+
+
+def test_the_command_to_type_can_be_typed(tmp_path: Path) -> None:
+    """A folder may have blanks in its name."""
+    out = tmp_path / "my class"
+    out.mkdir()
+    update_members(out, [tmp_path], ["ann", "bob"])
+    (note,) = update_members(out, [tmp_path], ["ann"]).notes
+    command = note.partition("`")[2].partition("`")[0]
+    assert shlex.split(command) == ["autograder", "report", str(out), "--forget", "NAME"]
 
 
 def test_one_late_file_joins_the_class(graded: Callable[..., tuple[str, ...]], tmp_path: Path) -> None:
