@@ -52,6 +52,55 @@ def test_without_landlock_the_level_says_so() -> None:
         assert sandbox.probe() == []
 
 
+SAYS_YES_AND_MEANS_NO = """
+import ctypes, os, struct, sys
+
+# what some containers do: a process may ask whether it has a filter, and may not set one
+prctl, seccomp = {"x86_64": (157, 317), "aarch64": (167, 277)}[os.uname().machine]
+load, equal, end = 0x20, 0x15, 0x06
+code = [
+    (load, 0, 0, 0),  # the number of the call
+    (equal, 4, 0, seccomp),
+    (equal, 0, 2, prctl),
+    (load, 0, 0, 16),  # its first argument
+    (equal, 1, 0, 22),  # PR_SET_SECCOMP
+    (end, 0, 0, 0x7FFF0000),
+    (end, 0, 0, 0x00050001),  # EPERM
+]
+program = ctypes.create_string_buffer(b"".join(struct.pack("<HBBI", *each) for each in code))
+header = ctypes.create_string_buffer(struct.pack("<HxxxxxxQ", len(code), ctypes.addressof(program)))
+libc = ctypes.CDLL(None, use_errno=True)
+assert libc.prctl(38, 1, 0, 0, 0) == 0
+assert libc.prctl(22, 2, header, 0, 0) == 0
+assert libc.prctl(21, 0, 0, 0, 0) == 2  # asking is allowed
+
+from autograder.errors import SandboxError
+from autograder.sandbox.host import Sandbox
+from tests.sandbox.conftest import LIMITS, inputs
+
+try:
+    Sandbox(inputs(), LIMITS)
+except SandboxError as error:
+    print(error)
+with Sandbox(inputs(), LIMITS, allow_unconfined=True) as sandbox:
+    print(sandbox.confinement.wording)
+"""
+
+
+@linux
+def test_what_can_be_locked_is_found_out_by_locking() -> None:
+    """Where a filter may be asked for and not set, nothing is graded; who trusts the code can still go on."""
+    root = Path(__file__).parents[2]
+    done = subprocess.run(
+        [sys.executable, "-c", SAYS_YES_AND_MEANS_NO], cwd=root, capture_output=True, text=True, check=False, timeout=60
+    )
+    assert done.returncode == 0, done.stderr
+    refused, allowed = done.stdout.splitlines()
+    assert "--allow-unconfined" in refused
+    assert allowed.startswith("none: NOT CONFINED")
+    assert "tried, and refused by the kernel" in allowed
+
+
 @linux
 def test_no_lock_is_refused() -> None:
     """Without the filter nothing is graded, unless that was asked for."""
