@@ -26,12 +26,15 @@ class Problem:
         The state to start from [m]: dead reckoning, without the noise of adding floats.
     truth : (n,) float array
         Where the robot really was [m]; nobody would know it outside a homework.
+    landmarks : tuple of int
+        Unknowns that are landmarks and not poses.
     """
 
     variant: str
     graph: PoseGraph
     start: np.ndarray
     truth: np.ndarray
+    landmarks: tuple[int, ...] = ()
 
 
 def worked_problem() -> Problem:

@@ -104,7 +104,7 @@ class Variant:
     @property
     def problem(self) -> Problem:
         """What the student's files are rendered from."""
-        return Problem(self.identifier, self.graph, self.start, floats(self.truth))
+        return Problem(self.identifier, self.graph, self.start, floats(self.truth), self.landmarks)
 
     @cached_property
     def marks(self) -> frozenset[str]:

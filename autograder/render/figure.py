@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-__all__ = ["as_image", "bars", "curves", "in_words", "pose_graph", "spy"]
+__all__ = ["as_image", "bars", "curves", "in_words", "pose_graph", "spy", "svg"]
 
 INK, GROUND, FILL, PALE = "#1b1b1b", "#fdfdfb", "#1f4e8c", "#e3e9f2"
 
@@ -37,7 +37,8 @@ def as_image(picture: str) -> str:
     return f'<img alt="{escape(in_words(picture))}" src="data:image/svg+xml;charset=utf-8,{address}">'
 
 
-def _svg(width: float, height: float, title: str, description: str, parts: Sequence[str]) -> str:
+def svg(width: float, height: float, title: str, description: str, parts: Sequence[str]) -> str:
+    """Put parts on a light ground, with a title and a description."""
     size = f'viewBox="0 0 {width:g} {height:g}" width="{width:g}" height="{height:g}"'
     style = f'font-family="sans-serif" font-size="14" fill="{INK}"'
     lines = [
@@ -61,8 +62,13 @@ def _(number: float) -> str:
     return f"{round(number, 1):g}"
 
 
-def pose_graph(n_poses: int, edges: Sequence[tuple[int, int, float]], priors: Sequence[tuple[int, float]]) -> str:
-    """Draw the poses of a graph in a row, its edges as arrows and arcs, its priors as squares below.
+def pose_graph(
+    n_poses: int,
+    edges: Sequence[tuple[int, int, float]],
+    priors: Sequence[tuple[int, float]],
+    landmarks: Sequence[int] = (),
+) -> str:
+    """Draw the poses of a graph in a row, landmarks as boxes, edges as arrows and arcs, priors as squares below.
 
     Parameters
     ----------
@@ -72,6 +78,8 @@ def pose_graph(n_poses: int, edges: Sequence[tuple[int, int, float]], priors: Se
         The first edge between neighbours is a straight arrow, all others are dashed arcs.
     priors : sequence of (pose, mean)
         Drawn as a square that hangs on the pose.
+    landmarks : sequence of int
+        Unknowns that are no poses.
 
     Returns
     -------
@@ -109,12 +117,14 @@ def pose_graph(n_poses: int, edges: Sequence[tuple[int, int, float]], priors: Se
         parts.append(f'<rect x="{at[pose] - 6:g}" y="{top + 46:g}" width="12" height="12" fill="{INK}"/>')
         parts.append(_text(at[pose], top + 76, f"prior {mean:g} m"))
     for pose, x in enumerate(at):
-        parts.append(f'<circle cx="{x:g}" cy="{top:g}" r="18" fill="{PALE}" stroke="{FILL}" stroke-width="2"/>')
+        box = f'x="{x - 18:g}" y="{top - 18:g}" width="36" height="36" rx="{3 if pose in landmarks else 18}"'
+        parts.append(f'<rect {box} fill="{PALE}" stroke="{FILL}" stroke-width="2"/>')
         parts.append(_text(x, top + 5, f"x{pose}"))
     words = [f"edge {i} to {j} measured {u:g} m" for i, j, u in edges]
     words += [f"prior on {pose} with mean {mean:g} m" for pose, mean in priors]
-    title = f"Pose graph with {n_poses} poses"
-    return _svg(
+    words += [f"x{k} is a landmark, drawn as a box" for k in landmarks]
+    title = f"Pose graph with {n_poses - len(landmarks)} poses" + (f" and {len(landmarks)} landmarks" * bool(landmarks))
+    return svg(
         2 * left + step * (n_poses - 1),
         top + 92,
         title,
@@ -168,7 +178,7 @@ def spy(entries: Sequence[Sequence[float]], name: str, told: str = "") -> str:
     listed = "; ".join(f"row {r}: columns {', '.join(words[at] for at in filled if at[0] == r)}" for r in range(rows))
     description = f"{rows} rows, {columns} columns." + (f" Not 0 in {listed}." if rows <= 12 else "")
     description += f" {told}" if told else ""
-    return _svg(width, height, caption, description, parts)
+    return svg(width, height, caption, description, parts)
 
 
 def bars(
@@ -222,7 +232,7 @@ def bars(
             beside, anchor = (x - 8, "end") if value < 0 else (x + width + 8, "start")
             parts.append(_text(beside, y + offset + 11, f"{value:.4g}", anchor))
     told = "; ".join(f"{name}: {words[0]} {one:.4g}, {words[1]} {two:.4g}" for name, one, two in pairs)
-    return _svg(600, height, title, told + ".", parts)
+    return svg(600, height, title, told + ".", parts)
 
 
 def curves(
@@ -282,7 +292,7 @@ def curves(
         key = top + 10 + 24 * index
         parts += [_mark(right + 24, key, index), _text(right + 38, key + 5, name, "start")]
     told = [f"{name}: " + ", ".join(f"{y:.2g} at {x:g}" for x, y in curve) for name, curve in series.items()]
-    return _svg(660, bottom + 56, title, f"{up} over {across}. {'; '.join(told)}.", parts)
+    return svg(660, bottom + 56, title, f"{up} over {across}. {'; '.join(told)}.", parts)
 
 
 def _mark(x: float, y: float, kind: int) -> str:

@@ -81,6 +81,7 @@ def _carried() -> dict[str, Any]:
         "posegraph": provided("posegraph.py"),
         "self_check": provided("self_check.py").partition('\n\nif __name__ == "__main__"')[0] + "\n",
         "figure": inspect.getsource(figure),
+        "corridor_picture": landmarks.picture(landmarks.corridor()),
         "corridor": inspect.getsource(landmarks.corridor),
         "corridor_words": in_words(),
         "fill_in": inspect.getsource(landmarks.fill_in),
@@ -92,7 +93,7 @@ def _pictures(problem: Problem) -> dict[str, str]:
     graph = problem.graph
     edges = [(i, j, u) for (i, j), u in zip(graph.edges.tolist(), graph.measurements.tolist(), strict=True)]
     priors = list(zip(graph.priors.tolist(), graph.prior_means.tolist(), strict=True))
-    return {"pose_graph.svg": figure.pose_graph(graph.n_poses, edges, priors), **_general_pictures()}
+    return {"pose_graph.svg": figure.pose_graph(graph.n_poses, edges, priors, problem.landmarks), **_general_pictures()}
 
 
 @cache
@@ -101,6 +102,7 @@ def _general_pictures() -> dict[str, str]:
     J, H = landmarks.patterns(landmarks.corridor())
     times = json.loads(resources.files("reference_solution").joinpath("solve_times.json").read_text(encoding="utf-8"))
     return {
+        "landmarks_graph.svg": landmarks.picture(landmarks.corridor()),
         "landmarks_J.svg": figure.spy(J, "J with landmarks", landmarks.J_IN_WORDS),
         "landmarks_H.svg": figure.spy(H, "H with landmarks", landmarks.H_IN_WORDS),
         "solve_times.svg": figure.curves("Time to solve H dx = -b", "poses", "time [s]", times, log_x=True),

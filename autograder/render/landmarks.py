@@ -8,8 +8,9 @@ import numpy as np
 
 from assignment.posegraph import PoseGraph
 from autograder.render.facts import reference
+from autograder.render.figure import FILL, INK, svg
 
-__all__ = ["H_IN_WORDS", "J_IN_WORDS", "corridor", "counts", "fill_in", "pairs_of", "patterns"]
+__all__ = ["H_IN_WORDS", "J_IN_WORDS", "corridor", "counts", "fill_in", "pairs_of", "patterns", "picture"]
 
 J_IN_WORDS = (
     "The rows of the walk come first: two entries side by side, which move one column to the right from row to row. "
@@ -32,6 +33,26 @@ def corridor() -> PoseGraph:
     measured = places[edges[:, 1]] - places[edges[:, 0]]
     variances = np.full(len(edges), 0.01)
     return PoseGraph(120, edges, measured, variances, np.array([0]), np.zeros(1), np.full(1, 0.001))
+
+
+def picture(graph: PoseGraph, poses: int = 100) -> str:
+    """Draw the graph of a corridor: its poses as dots in a row, its landmarks as boxes above, factors as lines."""
+    marks = range(poses, graph.n_poses)
+    at = {pose: (20.0 + 6.2 * pose, 150.0) for pose in range(poses)}
+    at |= {mark: (20.0 + 6.2 * (5 * (mark - poses) + 2), 50.0) for mark in marks}
+    lines = "".join("M{:g} {:g}L{:g} {:g}".format(*at[i], *at[j]) for i, j in graph.edges.tolist())
+    parts = [f'<path d="{lines}" fill="none" stroke="{INK}" stroke-width=".5"/>']
+    parts += [f'<circle cx="{at[k][0]:g}" cy="{at[k][1]:g}" r="2.2" fill="{FILL}"/>' for k in range(poses)]
+    parts += [f'<path d="M{at[k][0] - 5:g} {at[k][1] - 5:g}h10v10h-10z" fill="{FILL}"/>' for k in marks]
+    x, y = at[int(graph.priors[0])]
+    parts.append(f'<path d="M{x:g} {y:g}v20m-4 0h8v8h-8z" fill="{INK}" stroke="{INK}"/>')
+    words = ((24, f"{len(marks)} landmarks"), (180, f"{poses} poses, with a prior on the first"))
+    parts += [f'<text x="40" y="{y}">{text}</text>' for y, text in words]
+    told = (
+        f"{poses} poses in a row, each joined to the next, and {len(marks)} landmarks above them, each joined to the "
+        "poses from which it was seen, all of them near. No line joins two landmarks."
+    )
+    return svg(660, 196, "The graph of a corridor with landmarks", told, parts)
 
 
 def fill_in(pairs: set[frozenset[int]], order: list[int]) -> int:
@@ -87,6 +108,7 @@ def counts() -> dict[str, int]:
         "seen": len(graph.edges) - between,
         "possible": len(poses) * len(marks),
         "about": round(len(graph.edges) - between, -2),
+        "row": sum(patterns(graph)[1][50][:100]),  # of H, along the walk
         "fill_landmarks_first": fill_in(pairs, marks + poses),
         "fill_poses_first": fill_in(pairs, poses + marks),
         "fill_along": fill_in(pairs, along),

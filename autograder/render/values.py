@@ -27,6 +27,7 @@ PLAN = (
     ("2: Jacobian", 20),
     ("3: information matrix", 15),
     ("4: normal equations", 20),
+    ("sparsity", 10),
     ("5: step", 20),
     ("question 2", 25),
     ("question 3", 25),
@@ -49,10 +50,11 @@ def values(problem: Problem, grading: Grading | None = None) -> dict[str, Any]:
     return {
         "variant": problem.variant,
         "graph": graph,
+        "own_landmarks": problem.landmarks,
         "graph_source": graph_source(graph),
         "start": start_source(problem.start),
         "truth": start_source(problem.truth),
-        "factors": _factors(graph),
+        "factors": _factors(graph, problem.landmarks),
         "poses": [
             {"index": k, "truth": number(true), "start": number(start)}
             for k, (true, start) in enumerate(zip(problem.truth, problem.start, strict=True))
@@ -120,13 +122,15 @@ def _compared(variance: float, other: float) -> str:
     return f"{ratio:.2g} times smaller than" if ratio > 1 else f"{1 / ratio:.2g} times larger than"
 
 
-def _factors(graph: PoseGraph) -> list[dict[str, Any]]:
+def _factors(graph: PoseGraph, marks: tuple[int, ...]) -> list[dict[str, Any]]:
     rows: list[dict[str, str]] = []
     met: set[int] = set()
     for (i, j), u, v in zip(
         graph.edges.tolist(), graph.measurements.tolist(), graph.edge_variances.tolist(), strict=True
     ):
-        kind = "odometry" if abs(i - j) == 1 else "loop" if {i, j} <= met else "edge"  # to what is seen first
+        kind = (
+            "odometry" if abs(i - j) == 1 and not {i, j} & set(marks) else "loop" if {i, j} <= met else "edge"
+        )  # to what is seen first
         met |= {i, j}
         rows.append({"words": f"{kind} {i} → {j}", "value": f"{u:.2f}", "variance": number(v)})
     for k, mean, v in zip(
@@ -167,6 +171,7 @@ def _counted() -> dict[str, Any]:
         "functions_word": WORDS[len(CORE)],
         "steps_word": WORDS[states - 1],
         "states_word": WORDS[states],
+        "row_word": WORDS[landmarks.counts()["row"]],
         "experiments_word": WORDS[sum("bonus" not in heading for heading in headings)],
     }
 

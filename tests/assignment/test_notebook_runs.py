@@ -204,6 +204,7 @@ def test_the_pictures_are_drawn(finished):
         "walk": 1,
         "spy-j": 1,
         "spy-h": 1,
+        "corridor": 3,
         "compare": 1,
         "pictures": 2,
         "step-sizes": 1,

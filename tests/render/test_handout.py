@@ -186,3 +186,28 @@ def test_the_rule_of_the_signs_is_told_in_the_same_words():
         assert f"{prior}: x_i - " in text
     everything = [handout, stub, hints, *(slip.hint for slip in RESIDUAL_SLIPS)]
     assert not [text for text in everything if re.search(r"(?i)predicted minus", text)]
+
+
+def test_landmarks_are_called_and_drawn_as_such():
+    """In family L the two landmarks are named in handout and notebook, and are boxes in both pictures."""
+    problem = draw_variant(Secret(b"0123456789abcdef"), "2026S", "s1", family("L")).problem
+    files = render_assignment(problem)
+    assert problem.landmarks == (4, 5)
+    assert "4 poses, 2 landmarks," in files["README.md"]
+    assert "$x_{4}$ and $x_{5}$ are landmarks" in files["README.md"]
+    assert "$x_{4}$ and $x_{5}$ are landmarks" in files["slam1d.ipynb"]
+    assert "| $x_{5}$, landmark |" in files["README.md"]
+    assert files["pose_graph.svg"].count('rx="3"') == 2
+    assert "show(pose_graph(my_graph.n_poses, arrows, beliefs, (4, 5)))" in files["slam1d.ipynb"]
+    assert "landmarks, drawn as boxes" not in render_assignment(worked_problem())["README.md"]
+
+
+def test_the_word_is_found_and_not_told():
+    """Nothing in the notebook says what kind of function f is; question 3 asks for it, and the model answer names it."""
+    notebook = json.loads(render_assignment(worked_problem())["slam1d.ipynb"])
+    words = "".join("".join(c["source"]) for c in notebook["cells"] if c["cell_type"] == "markdown")
+    assert not re.search(r"(?i)linear|affine|constant J|same at every x", words)
+    assert "which property of $\\mathbf f$ is it, and what is it called?" in words
+    solution = render_solution(worked_problem())["SOLUTION.md"]
+    assert "The property is called **linear**" in solution
+    assert "names the property: $\\mathbf f$ is linear" in solution
