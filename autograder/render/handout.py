@@ -81,7 +81,7 @@ def _carried() -> dict[str, Any]:
         "posegraph": provided("posegraph.py"),
         "self_check": provided("self_check.py").partition('\n\nif __name__ == "__main__"')[0] + "\n",
         "figure": inspect.getsource(figure),
-        "corridor_picture": landmarks.picture(landmarks.corridor()),
+        "corridor_picture": inspect.getsource(landmarks.picture),
         "corridor": inspect.getsource(landmarks.corridor),
         "corridor_words": in_words(),
         "fill_in": inspect.getsource(landmarks.fill_in),

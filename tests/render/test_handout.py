@@ -203,7 +203,7 @@ def test_landmarks_are_called_and_drawn_as_such():
 
 
 def test_the_word_is_found_and_not_told():
-    """Nothing in the notebook says what kind of function f is; question 3 asks for it, and the model answer names it."""
+    """The notebook does not say what kind of function f is; question 3 asks for it, the model answer names it."""
     notebook = json.loads(render_assignment(worked_problem())["slam1d.ipynb"])
     words = "".join("".join(c["source"]) for c in notebook["cells"] if c["cell_type"] == "markdown")
     assert not re.search(r"(?i)linear|affine|constant J|same at every x", words)
