@@ -143,6 +143,15 @@ def test_a_line_that_cannot_be_changed_stays_and_is_listed(language: str) -> Non
     assert not any("comment" in note for note in filled.notes)
 
 
+def test_the_column_of_locked_lines_may_be_named() -> None:
+    """Its heading is not known in every language, its answer is."""
+    dutch = ENGLISH.replace(b"Grade can be changed", b"Wijzigen").replace(
+        b'90.00,Yes,-,-,"=old', b'90.00,Nee,-,-,"=old'
+    )
+    filled = fill_worksheet(dutch, "w.csv", [result("41"), result("42")], headings={"changeable": "Wijzigen"})
+    assert imported(filled.data, "en") == {"41": "90", "42": "55.00", "43": ""}
+
+
 @pytest.mark.parametrize(
     ("folder", "line"),
     [

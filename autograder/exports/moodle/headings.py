@@ -32,10 +32,10 @@ KNOWN: Mapping[str, tuple[str, ...]] = {
         "Feedback comments", "Feedback als Kommentar", "Feedback par commentaires", "Comentarios de retroalimentación",
         "Commenti",
     ),
-    "changeable": (
+    "changeable": (  # no Dutch one is known for sure; --changeable-column names it
         "Grade can be changed", "Bewertung kann geändert werden", "La note peut être modifiée",
-        "La calificación puede ser cambiada", "La valutazione può essere modificata", "A nota pode ser alterada",
-        "Cijfer kan gewijzigd worden",
+        "La calificación puede ser cambiada", "La valutazione può essere cambiata", "Nota pode ser alterada",
+        "A nota pode ser alterada.",
     ),
 }  # fmt: skip
 _NO = {"no", "nein", "non", "não", "nee"}
