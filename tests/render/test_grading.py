@@ -36,7 +36,7 @@ def test_what_a_title_holds_is_shown_as_it_is() -> None:
     """Marks of Markdown, of formulas and of HTML in a title are letters of it."""
     files = render_assignment(worked_problem(), Grading(title="A *b* $5 `c` <d>\n%% code x"))
     assert files["README.md"].startswith("# A \\*b\\* \\$5 \\`c\\` \\<d\\> %% code x\n")
-    assert "<h1>A *b* $5 `c` &lt;d&gt; %% code x</h1>" in files["handout.html"]
+    assert ">A *b* $5 `c` &lt;d&gt; %% code x</h1>" in files["handout.html"]
     assert "<title>A *b* $5 `c` &lt;d&gt; %% code x</title>" in files["handout.html"]
 
 
