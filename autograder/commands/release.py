@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Sequence
 from contextlib import ExitStack
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -39,6 +40,9 @@ if TYPE_CHECKING:
     "--course", "course_file", type=click.Path(path_type=Path), metavar="FILE", help="Settings of the course."
 )
 @click.option("--workers", type=click.IntRange(1), metavar="N", help="Processes at a time. [default: all cores]")
+@click.option(
+    "--solutions", is_flag=True, help="After the due date: write DIR/solutions/ID.html, model answers on own numbers."
+)
 @click.option("--force", is_flag=True, help="Render folders again that have changed; accept another secret or term.")
 def command(
     roster: Path,
@@ -48,6 +52,7 @@ def command(
     out: Path,
     course_file: Path | None,
     workers: int | None,
+    solutions: bool,
     force: bool,
 ) -> None:
     """Give every student of a class a problem with numbers of their own.
@@ -66,14 +71,18 @@ def command(
     from autograder.commands._class import demand_of, grading_of, mix_of, secret_of
     from autograder.commands._exam import shared_exam
     from autograder.commands._progress import shown
+    from autograder.commands._solutions import FOLDER, check_time, release_solutions
     from autograder.course import load_course
     from autograder.engine.local import default_workers
     from autograder.exports.handout import mail_table
+    from autograder.problems.ledger import read_ledger
     from autograder.problems.release import EXAM, LEDGER, release
     from autograder.problems.roster import read_roster
     from autograder.render.handout import render_folder
 
     course = load_course(course_file)
+    if solutions:
+        check_time(course, datetime.now(UTC))
     grading = grading_of(course)
     mix = mix_of(families, course)
     students = read_roster(roster)
@@ -96,6 +105,9 @@ def command(
             on_draw=shown(stack, "drawing", "drew"),
             on_progress=shown(stack, "writing", "wrote"),
         )
+    if solutions:
+        count = release_solutions(read_ledger(out / LEDGER), out)
+        click.echo(f"To hand out now: {out / FOLDER}, model answers for {count} students.")
     exam = out / EXAM
     seed = secret.seed(term) if course.seed is None else course.seed
     note = shared_exam(exam, seed, course.examples, force=force)

@@ -42,7 +42,7 @@ def render_assignment(problem: Problem, grading: Grading | None = None) -> dict[
     words = values(problem, grading)
     pictures = _pictures(problem)
     notebooks = {**words, **_carried()}
-    told = {f"{name.removesuffix('.svg')}_text": _alternative(picture) for name, picture in pictures.items()}
+    told = {f"{name.removesuffix('.svg')}_text": alternative(picture) for name, picture in pictures.items()}
     handout = fill("README.md.j2", **words, **told)
     return {
         "slam1d.py": stub_module(problem),
@@ -109,7 +109,8 @@ def _general_pictures() -> dict[str, str]:
     }
 
 
-def _alternative(picture: str) -> str:
+def alternative(picture: str) -> str:
+    """Return the words of a picture for Markdown."""
     return figure.in_words(picture).replace("[", "(").replace("]", ")")  # brackets would end the text in Markdown
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import os
 import tempfile
 from functools import cache
 from pathlib import Path
@@ -16,16 +17,18 @@ from autograder.problems.exact import ExactGraph, decimal
 from autograder.problems.families.worked_example import worked_example
 from autograder.problems.loops import solve_by_loops
 from autograder.problems.problem import Problem
+from autograder.render import figure
 from autograder.render.facts import Solution, reference, solve, solve_worked
-from autograder.render.handout import PROVIDED, provided, write_files
+from autograder.render.handout import PROVIDED, alternative, provided, write_files
 from autograder.render.notebook import render_notebook
 from autograder.render.page import printable
 from autograder.render.stub import reference_source
 from autograder.render.template import fill
 from autograder.render.values import number, values
 
-__all__ = ["execute", "render_solution"]
+__all__ = ["execute", "model_answers", "render_solution"]
 
+ROUNDING = 1e-12  # below it a step is rounding [m]
 REMARKS = {
     "reached_truth": "takes the minimum of the cost for the truth; show the RMSE that is left.",
     "few_poses": "takes size for linearity; the same happens with a hundred poses.",
@@ -75,6 +78,21 @@ def render_solution(problem: Problem) -> dict[str, str]:
     }
 
 
+def model_answers(problem: Problem) -> str:
+    """Render what a student may see after the due date: the way by hand and the model answers, as HTML."""
+    own = solve(problem)
+    ways = {"truth": problem.truth, "dead reckoning": problem.start, "after one step": own.x1}
+    places = {name: list(enumerate(way.round(9).tolist())) for name, way in ways.items()}
+    sizes = np.abs(np.diff(own.iterates, axis=0)).max(axis=1)
+    steps = {"steps": [(k, size if size > ROUNDING else 0.0) for k, size in enumerate(sizes.tolist(), 1)]}
+    pictures = {
+        "corridor.svg": figure.curves("Along the corridor", "pose", "position [m]", places, log_y=False),
+        "steps.svg": figure.curves("Size of the steps", "step", "largest entry [m]", steps),
+    }
+    told = {f"{name.removesuffix('.svg')}_text": alternative(drawn) for name, drawn in pictures.items()}
+    return printable(fill("model_answers.md.j2", **values(problem), **_matrices(problem), **told), pictures)
+
+
 @cache
 def _functions() -> dict[str, str | None]:
     source = reference_source()
@@ -90,7 +108,9 @@ def execute(notebook: str) -> str:
     metadata = dict(ran.metadata)
     with tempfile.TemporaryDirectory() as folder:
         write_files({name: provided(name) for name in PROVIDED}, Path(folder))
-        NotebookClient(ran, timeout=120, resources={"metadata": {"path": folder}}).execute()
+        NotebookClient(ran, timeout=120, resources={"metadata": {"path": folder}}).execute(
+            env={**os.environ, "PYTHONPATH": folder}  # some kernels do not look beside the notebook
+        )
     ran.metadata = metadata
     for cell in ran.cells:
         cell.metadata.pop("execution", None)

@@ -261,3 +261,23 @@ def test_what_is_drawn_again_is_what_was_released(release: Callable[..., Ended],
     assert [variant.exact for variant in drawn] == [variant.exact for variant in released]
     assert all(demand_of({"A": 1}).accept(variant) for variant in released[:1])
     assert len(unseen(released[0], known_mistakes())) < len(known_mistakes()) / 2
+
+
+def test_model_answers_are_released_after_the_due_date_and_not_before(
+    release: Callable[..., Ended], tmp_path: Path
+) -> None:
+    """Each student's page has their own numbers and no marking guide; before the due date nothing is written."""
+    course = tmp_path / "course.toml"
+    for due, code in (("2999-01-01T12:00:00+00:00", 2), ("2020-01-01T12:00:00+00:00", 0)):
+        course.write_text(f"[late]\ndue = {due}\n")
+        ended, _out, err = release("--solutions", "--course", course)
+        assert ended == code
+        assert (tmp_path / "release" / "solutions").exists() == (code == 0)
+        assert ("until then somebody may hand in" in err) == (code == 2)
+    for variant in ledger_of(tmp_path / "release"):
+        page = (tmp_path / "release" / "solutions" / f"{variant.student_id}.html").read_text(encoding="utf-8")
+        assert variant.identifier in page
+        assert "<strong>linear</strong>" in page
+        assert "Along the corridor" in page
+        assert "Marking guide" not in page
+    assert release("--solutions", "--force")[0] == 2
