@@ -182,7 +182,8 @@ def _array(name: str, value: Any, shape: tuple[int, ...], verb: str = "returned"
 
 
 def number(value: float, digits: int = 6) -> str:
-    """Print a number short, and -0. as 0."""
+    """Print a number short, and -0. and the dust of rounding as 0."""
+    value = value if abs(value) >= 1e-14 else 0
     return f"{value + 0:.0f}" if abs(value) < 1e7 and float(value).is_integer() else f"{value:.{digits}g}"
 
 

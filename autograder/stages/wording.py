@@ -6,16 +6,18 @@ import numpy as np
 
 from assignment.posegraph import PoseGraph
 
+DUST = 1e-14  # below it a number is what rounding left
+
 
 def number(value: float) -> str:
-    """Print a number for a student: short, and -0. as 0.
+    """Print a number for a student: short, and -0. and the dust of rounding as 0.
 
     Examples
     --------
-    >>> number(-0.0), number(1200.0), number(0.1 + 0.2)
-    ('0', '1200', '0.3')
+    >>> number(-0.0), number(1200.0), number(0.1 + 0.2), number(3.55271e-17)
+    ('0', '1200', '0.3', '0')
     """
-    if value == 0:
+    if abs(value) < DUST:
         return "0"
     return f"{value:.0f}" if abs(value) < 1e7 and float(value).is_integer() else f"{value:.6g}"
 

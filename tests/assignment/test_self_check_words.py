@@ -20,7 +20,7 @@ def test_the_words_are_the_graders(self_check):
     for graph in (self_check.WORKED, self_check.PUBLIC["two priors"][1]):
         for row in range(graph.n_factors):
             assert self_check.factor(graph, row) == wording.factor(graph, row)
-    for value in (0.0, -0.0, 1200.0, 0.1 + 0.2, -2.5, 1e9):
+    for value in (0.0, -0.0, 1200.0, 0.1 + 0.2, -2.5, 1e9, 3.55271e-17, -2e-16, 1e-12):
         assert self_check.number(value) == wording.number(value)
     for values in ([1.0, -0.0, 2.5], [1.94289e-18, 0.1, -0.1], [2e-17, 1e-17], [1e-17, 3.25], range(12)):
         assert self_check.vector(np.array(values, float)) == wording.vector(np.array(values, float))
