@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 _QUESTION = re.compile(r"^\s*#+\s*Question\s+(\d)\b", re.IGNORECASE)
 _PROMPT = re.compile(r"^\s*\*\*Your answer to question (\d)\*\*(?:[^\n]*?edit this cell\):)?[ \t]*", re.IGNORECASE)
-_END = re.compile(r"^\s*(#+\s|Save, and hand in\b)", re.IGNORECASE)
+# what was handed out below a question, and is nobody's answer to it
+_END = re.compile(r"^\s*(#+\s|Save, and hand in\b|\*\*Along a line\.\*\*)", re.IGNORECASE)
 
 
 def written_answers(markdown: Sequence[str]) -> dict[str, str]:

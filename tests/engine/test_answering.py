@@ -1,11 +1,15 @@
 """The reported answers: judged on the variant on record, with follow-through; words await a human reader."""
 
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from autograder.course import Course
 from autograder.engine.grade import Assigned, Settings, grade
 from autograder.intake.submission import collect
+from autograder.intake.written import written_answers
 from autograder.problems.conclusion import RIGHT, choices
 from autograder.problems.copied import Numbers
 from autograder.problems.families import family
@@ -185,3 +189,12 @@ def test_each_answer_that_cannot_be_used_is_named_for_itself(graded):
     assert "conclusion: got an int, expected a string." in stages["answers"].message
     assert stages["written"].message == "question 2: no answer. written_3: got a list of 1, expected a string."
     assert "None" not in stages["answers"].message
+
+
+def test_the_notebook_as_it_is_handed_out_holds_no_written_answer() -> None:
+    """Nothing that we print below a question is taken for what a student wrote."""
+    handed_out = json.loads((Path(__file__).parents[2] / "assignment/slam1d.ipynb").read_text("utf-8"))
+    cells = ["".join(each["source"]) for each in handed_out["cells"] if each["cell_type"] == "markdown"]
+    assert written_answers(cells) == {}
+    answered = [f"{cell} Zero." if cell.startswith("**Your answer to question 2**") else cell for cell in cells]
+    assert written_answers(answered) == {"2": "Zero."}
