@@ -109,7 +109,8 @@ def execute(notebook: str) -> str:
     with tempfile.TemporaryDirectory() as folder:
         write_files({name: provided(name) for name in PROVIDED}, Path(folder))
         NotebookClient(ran, timeout=120, resources={"metadata": {"path": folder}}).execute(
-            env={**os.environ, "PYTHONPATH": folder}  # some kernels do not look beside the notebook
+            # The folder is made here, so that what lies beside the notebook may be looked at; some kernels do not.
+            env={**os.environ, "PYTHONPATH": folder, "PYTHONSAFEPATH": ""}
         )
     ran.metadata = metadata
     for cell in ran.cells:

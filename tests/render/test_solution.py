@@ -124,3 +124,11 @@ def test_loops_before_the_walk_are_refused():
         fields[name] = fields[name][::-1]
     with pytest.raises(ValueError, match="must lead from pose 0"):
         render_solution(type(problem)("turned", type(graph)(**fields), problem.start, problem.truth))
+
+
+def test_the_provided_file_is_found_where_python_looks_nowhere_else(monkeypatch):
+    """`python -m autograder` starts every Python without the current folder; the notebook finds posegraph all the same."""
+    monkeypatch.setenv("PYTHONSAFEPATH", "1")
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("import posegraph\nprint('found')")])
+    ran = nbformat.reads(execute(nbformat.writes(notebook)), as_version=4)
+    assert ran.cells[0].outputs[0].text == "found\n"
