@@ -127,7 +127,7 @@ def test_loops_before_the_walk_are_refused():
 
 
 def test_the_provided_file_is_found_where_python_looks_nowhere_else(monkeypatch):
-    """`python -m autograder` starts every Python without the current folder; the notebook finds posegraph all the same."""
+    """Python is started without the current folder everywhere; a notebook finds posegraph all the same."""
     monkeypatch.setenv("PYTHONSAFEPATH", "1")
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("import posegraph\nprint('found')")])
     ran = nbformat.reads(execute(nbformat.writes(notebook)), as_version=4)
