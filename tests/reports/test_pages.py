@@ -53,6 +53,19 @@ def test_a_rejected_upload_has_its_reason_under_every_policy(policy: str) -> Non
     assert "judy.pdf is no notebook." in page
 
 
+@pytest.mark.parametrize("policy", ["full", "hint"])
+def test_what_was_not_begun_takes_one_line(policy: str) -> None:
+    """A missing stage has no section of its own, but a line with its points, to which the table leads."""
+    missing = stage("sparsity_pattern", "missing", 0.0, "it is not defined")
+    page = feedback_page(result("ann", stage("jacobian", "failed", 0.0, "MESSAGE"), missing), policy)
+    assert page.count("<h2>Not begun</h2>") == 1
+    assert '<section id="jacobian">' in page
+    assert '<section id="sparsity_pattern">' not in page
+    (line,) = [line for line in page.splitlines() if line.startswith('<li id="sparsity_pattern">')]
+    assert line.endswith("</li>")
+    assert ("it is not defined" in line) == (policy == "full")
+
+
 def test_our_own_fault_shows_no_score() -> None:
     """A grader_error is no zero, and its technical reason stays with the staff."""
     page = feedback_page(result("kim", status="grader_error", message="SANDBOX"))
