@@ -14,6 +14,7 @@ CODE = ("assignment", "autograder", "reference_solution", "tests")
 NOT_OURS = {
     ".git",
     ".venv",
+    ".venv-floors",
     "__pycache__",
     ".hypothesis",
     ".mypy_cache",

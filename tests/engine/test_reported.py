@@ -50,5 +50,5 @@ def test_the_letters_are_those_of_the_variant() -> None:
     """The published example's right letter is C; the choice is told in words."""
     found = reported(SHEET, Answers(conclusion="c"))
     assert (found.right_letter, found.letters["linear"]) == ("C", "C")
-    assert found.choice.startswith("J is the same at every x")
+    assert found.choice.startswith("f is of a kind with which the first step ends")
     assert found.right[0] == [0.0, 1.1, 2.1, 3.2, 0.5]

@@ -7,6 +7,9 @@ from pathlib import Path
 import pytest
 
 import reference_solution
+
+pytest.importorskip("cosmic_ray", reason="what mutates is installed for `make mutants` only")
+
 from tests.mutation.__main__ import EQUIVALENT, table
 from tests.mutation.mutants import Mutant, mutants
 
