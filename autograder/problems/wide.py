@@ -152,6 +152,9 @@ WIDE_LOOPS: tuple[Case, ...] = (
     two_starts(near_the_minimum(_shape(4, 1, 1, 0, 0.1, star=True), 0.9)),
     two_starts(almost_there(_shape(3, 1, 1, 2, 0.4, star=True), 0.3)),
     two_starts(almost_there(_shape(3, 2, 1, 0, 0.7), 0.8)),
+    two_starts(anywhere(_shape(10, 1, 1, 0, 0.3), 0.4)),
+    two_starts(anywhere(_shape(11, 2, 1, 1, 0.5), 0.2)),
     two_starts(anywhere(_shape(12, 1, 1, 2, 0.4), 0.6)),
+    two_starts(anywhere(_shape(13, 1, 1, 1, 0.6), 0.5)),
     two_starts(anywhere(_shape(30, 3, 1, 1, 0.7), 0.9)),
 )
