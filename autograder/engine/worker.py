@@ -57,19 +57,27 @@ def main(connection: Connection) -> None:
     with contextlib.suppress(BrokenPipeError, EOFError, ConnectionResetError, SandboxLost):
         server = Server()  # it starts while the exam is still being drawn
         try:
-            told = msgspec.msgpack.decode(connection.recv_bytes(), type=Orders)
+            told = msgspec.msgpack.decode(_received(connection), type=Orders)
             plan = plan_of(told)
             sandbox = Sandbox(plan.inputs, limits_of(told), allow_unconfined=told.allow_unconfined, server=server)
             send(Ready(sandbox.confinement.level, sandbox.confinement.detail))
             examiner = Examiner(plan, sandbox)
             while True:
-                send(examiner.do(msgspec.msgpack.decode(connection.recv_bytes(), type=Grade)))
+                send(examiner.do(msgspec.msgpack.decode(_received(connection), type=Grade)))
         except SandboxLost:
             raise
         except AutograderError as error:
             send(Trouble(str(error), fatal=True))
         finally:
             server.close()
+
+
+def _received(connection: Connection) -> bytes:
+    """Wait for a message; one that breaks off, because the client was stopped while it sent, is the end of it."""
+    try:
+        return connection.recv_bytes()
+    except OSError:
+        raise EOFError from None
 
 
 class Examiner:
