@@ -89,8 +89,9 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     if alone:
         os.environ["PYTHONSAFEPATH"] = "1"  # no Python that this one starts looks for modules among the uploads
         make_safe()
-        _hear_signals()
     try:
+        if alone:
+            _hear_signals()  # from here on an interruption is caught below
         code = _run(arguments)
     except (KeyboardInterrupt, click.Abort):
         code = _say("Interrupted. Results so far are kept; the same command goes on from there.", INTERRUPTED)
